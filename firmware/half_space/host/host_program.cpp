@@ -1,0 +1,86 @@
+#include "firmware/half_space/host/host_program.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "sim/base/check.h"
+#include "sim/base/error.h"
+
+namespace dendro::half_space {
+namespace {
+
+std::uint32_t widen(std::uint8_t level) { return static_cast<std::uint32_t>(level) << 2 | level >> 6; }
+
+std::vector<std::uint32_t> params_of(const PlaneProgram& program, std::uint32_t size) {
+  std::vector<std::uint32_t> params(kParamsWords, 0);
+  params[kMaxDepth] = static_cast<std::uint32_t>(program.maxdepth);
+  params[kBoxing] = program.boxing ? 1 : 0;
+  params[kBackCount] = static_cast<std::uint32_t>(program.back.size());
+  params[kEdgeOnCount] = static_cast<std::uint32_t>(program.edge_on.size());
+  params[kFrontCount] = static_cast<std::uint32_t>(program.front.size());
+  params[kSaturate] = program.steep == SteepPolicy::kSaturate ? 1 : 0;
+  params.resize(std::min<std::uint32_t>(size, kParamsWords));
+  return params;
+}
+
+}  // namespace
+
+void check_fits(const Prepared& prepared, const ProgramImage& image, std::uint32_t scratch_words,
+                const scene::Where& where) {
+  for (const auto& [name, size] : {std::pair("box", kBoxWords), {"params", int{kSaturate}}, {"records", 0}}) {
+    const auto area = image.scratch.find(name);
+    if (area == image.scratch.end() || area->second.size < static_cast<std::uint32_t>(size))
+      throw UserError(image.name + fmt::format(": the scratch area \"{}\" is missing or too small", name));
+  }
+  if (prepared.program.steep == SteepPolicy::kSaturate && image.scratch.at("params").size < kParamsWords)
+    throw UserError(where.file, where.line, "half_space.steep",
+                    "this microprogram has no saturating adder; must be wide or wrap");
+  const std::uint32_t first = image.scratch.at("records").address;
+  const std::size_t wanted = prepared.program.record_words().size();
+  const std::size_t room = scratch_words > first ? scratch_words - first : 0;
+  if (wanted > room)
+    throw UserError(where.file, where.line, "object",
+                    fmt::format("{} planes, {} of them wide, take {} scratchpad words; {} are free",
+                                prepared.screen.size(), prepared.program.wide_records(), wanted, room));
+}
+
+std::vector<std::uint32_t> look_up_table(const std::vector<Rgb>& shades) {
+  std::vector<std::uint32_t> table(1024);
+  for (std::size_t i = 0; i < table.size(); ++i) {
+    const std::size_t face = i % 256;
+    const Rgb& rgb = shades[face < shades.size() ? face : 0];
+    table[i] = widen(rgb[0]) | widen(rgb[1]) << 10 | widen(rgb[2]) << 20;
+  }
+  return table;
+}
+
+void run(HostPort& host, const Prepared& prepared, const ProgramImage& image) {
+  RdsDriver driver(host);
+  const PlaneProgram& program = prepared.program;
+
+  host.phase("load_program");
+  driver.load_program(image);
+
+  host.phase("load_planes");
+  Work work;
+  work.flops = prepared.setup_flops;
+  host.compute(work);
+  const Box& box = program.box;
+  driver.write_scratch(image.scratch.at("box").address,
+                       {static_cast<std::uint32_t>(box.x0), static_cast<std::uint32_t>(box.y0),
+                        static_cast<std::uint32_t>(box.x1), static_cast<std::uint32_t>(box.y1)});
+  const ScratchArea& params = image.scratch.at("params");
+  driver.write_scratch(params.address, params_of(program, params.size));
+  driver.write_scratch(image.scratch.at("records").address, program.record_words());
+
+  host.phase("load_tables");
+  driver.write_look_up_table(look_up_table(program.shades));
+  driver.show_byte(kFaceLow);
+  driver.set_viewport(program.width, program.height);
+
+  driver.run_to_interrupt(image.entry);
+  host.phase("finish");
+}
+
+}  // namespace dendro::half_space

@@ -1,0 +1,102 @@
+#include "firmware/half_space/host/object_planes.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <stdexcept>
+
+#include "sim/base/error.h"
+#include "sim/scene/mesh.h"
+#include "sim/scene/view.h"
+
+namespace dendro::half_space {
+namespace {
+
+/// The scratchpad's 8K words hold no more, whatever the kinds.
+constexpr int kMostPlanes = 2048;
+
+[[noreturn]] void blame(const scene::Object& object, const std::string& key, const std::string& message) {
+  throw UserError(object.source_where.file, object.source_where.line, key, message);
+}
+
+scene::PlaneSet mesh_planes(const scene::Object& object, scene::Options& options, ObjectPlanes& result) {
+  const auto count = static_cast<std::size_t>(options.integer("planes", 0, 4, kMostPlanes));
+  const std::string source = options.choice("plane_source", "hull", {"hull", "support"});
+  std::vector<glm::dvec3> directions;
+  for (const std::vector<double>& row : options.vectors("directions", 3)) {
+    directions.emplace_back(row[0], row[1], row[2]);
+    if (!(glm::length(directions.back()) > 0)) options.fail("directions", "a direction must not be zero");
+  }
+  if (!directions.empty() && source != "support")
+    options.fail("directions", "goes with plane_source = \"support\" only");
+  if (!directions.empty() && options.has("planes") && count != directions.size())
+    options.fail("planes",
+                 fmt::format("{} planes are wanted but {} directions are given", count, directions.size()));
+
+  const scene::Mesh mesh = scene::load_mesh(object.mesh, object.source_where, "object.mesh");
+  result.files = mesh.files;
+  if (source == "support") {
+    if (directions.empty() && count == 0) options.fail("planes", "is needed with plane_source = \"support\"");
+    return scene::support_planes(mesh.vertices,
+                                 directions.empty() ? scene::sphere_directions(count) : directions);
+  }
+  try {
+    return scene::hull_planes(mesh.vertices, count);
+  } catch (const std::invalid_argument& error) {
+    if (options.has("planes")) options.fail("planes", fmt::format("{}: {}", object.mesh, error.what()));
+    blame(object, "object.mesh", fmt::format("{}: {}", object.mesh, error.what()));
+  }
+}
+
+scene::PlaneSet listed_planes(const scene::Object& object) {
+  scene::PlaneSet planes;
+  for (const scene::PlaneEntry& entry : object.planes) {
+    const glm::dvec3 normal(entry.normal[0], entry.normal[1], entry.normal[2]);
+    const double length = glm::length(normal);
+    if (!(length > 0) || !std::isfinite(length) || !std::isfinite(entry.offset))
+      blame(object, "object.planes",
+            fmt::format("plane {}: the normal must be finite and not zero and the offset "
+                        "finite",
+                        planes.size() + 1));
+    // A unit axis keeps its exact zeros and ones, which makes edge-on planes exactly edge-on.
+    planes.push_back({normal / length, entry.offset / length});
+  }
+  return planes;
+}
+
+}  // namespace
+
+ObjectPlanes object_planes(const scene::Object& object, scene::Options& options) {
+  ObjectPlanes result;
+  scene::PlaneSet own;
+  std::string key = "object.planes";
+  if (!object.mesh.empty()) {
+    own = mesh_planes(object, options, result);
+    key = "object.mesh";
+  } else {
+    for (const char* meshes_only : {"planes", "plane_source", "directions"})
+      if (options.has(meshes_only)) options.fail(meshes_only, "goes with an object that is a mesh only");
+    const auto& names = scene::solid_names();
+    if (!object.tree.empty())
+      blame(object, "object.tree", "grown trees are not available; give mesh, solid or planes");
+    if (!object.solid.empty()) {
+      if (std::find(names.begin(), names.end(), object.solid) == names.end())
+        blame(object, "object.solid",
+              fmt::format("\"{}\" is not known; must be one of {}", object.solid, fmt::join(names, ", ")));
+      own = scene::solid_planes(object.solid);
+      key = "object.solid";
+    } else {
+      own = listed_planes(object);
+    }
+  }
+  if (own.empty()) blame(object, key, "the object has no planes; give mesh, solid or planes");
+  if (own.size() > static_cast<std::size_t>(kMostPlanes))
+    blame(object, key, fmt::format("{} planes are more than the scratchpad's {}", own.size(), kMostPlanes));
+  const scene::Placement place(object);
+  for (const scene::HalfSpace& plane : own) result.planes.push_back(place(plane));
+  return result;
+}
+
+}  // namespace dendro::half_space

@@ -1,0 +1,56 @@
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "models/parts/host/host_port.h"
+
+namespace dendro::half_space {
+
+/// A named stretch of the scratchpad.
+struct ScratchArea {
+  std::uint32_t address = 0;
+  std::uint32_t size = 0;
+};
+
+/// A microprogram as the host's driver loads it: the content of a .ucode file.
+struct ProgramImage {
+  std::string name;
+  std::string sha256;                                      ///< of the .ucode text
+  std::vector<std::uint64_t> words;                        ///< control store from address 0
+  std::uint32_t entry = 0;                                 ///< page in bits 12-14, address in bits 0-11
+  std::map<std::string, std::uint32_t> symbols;            ///< control-store addresses by label
+  std::map<std::string, ScratchArea> scratch;              ///< areas by name
+  std::map<std::uint32_t, std::uint32_t> initial_scratch;  ///< word by scratch address
+};
+
+/// The RDS-3000's boards through its host interface, as the VAX's driver uses them. Costs are the machine's:
+/// each call is one or more accesses of the port.
+class RdsDriver {
+ public:
+  explicit RdsDriver(HostPort& host) : host_(host) {}
+
+  /// Opens the program (one program load of host software), sends control store and initial scratch data.
+  void load_program(const ProgramImage& image);
+
+  void write_scratch(std::uint32_t address, const std::vector<std::uint32_t>& words);
+
+  /// 1,024 entries: red bits 0-9, green 10-19, blue 20-29.
+  void write_look_up_table(const std::vector<std::uint32_t>& entries);
+
+  /// Sends pixel lines low..low+7 to the address bits of all three channels' tables.
+  void show_byte(unsigned low);
+
+  /// Makes the monitor show the top left width x height pixels of the lores frame.
+  void set_viewport(int width, int height);
+
+  /// Resets the processor to the entry point and lets it run to its completion interrupt.
+  void run_to_interrupt(std::uint32_t entry);
+
+ private:
+  HostPort& host_;
+};
+
+}  // namespace dendro::half_space

@@ -1,0 +1,140 @@
+#include "firmware/tools/assembler.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "firmware/tools/gia_check.h"
+#include "firmware/tools/gia_pack.h"
+#include "firmware/tools/gia_parser.h"
+#include "firmware/tools/source_error.h"
+#include "models/parts/bps32/bps32_isa.h"
+
+namespace dendro::tools {
+namespace {
+
+using namespace bps32;
+
+constexpr std::uint32_t kImmScratch = 4096;  // what the imm field reaches
+
+void check_options(const AssembleOptions& o) {
+  if (o.pack != "none" && o.pack != "full") throw UserError("pack is none or full, not '" + o.pack + "'");
+  if (o.multiply_ticks < 1 || o.multiply_ticks > 64) throw UserError("multiply_ticks is 1 to 64");
+  if (o.scratch_words < 1 || o.scratch_words > 8192) throw UserError("scratch_words is 1 to 8192");
+  if (o.control_words < 1 || o.control_words > kPageWords) throw UserError("control_words is 1 to 4096");
+}
+
+/// Puts the constant pool into free scratch words and returns the address of each constant.
+std::vector<std::uint32_t> place_pool(Program& program, unsigned scratch_words) {
+  std::vector<bool> used(std::min<std::size_t>(scratch_words, kImmScratch), false);
+  const auto mark = [&](std::uint32_t at) {
+    if (at < used.size()) used[at] = true;
+  };
+  for (const auto& [name, s] : program.scratch) {
+    for (std::uint32_t i = 0; i < s.size; ++i) mark(s.address + i);
+  }
+  for (const auto& [at, value] : program.scratch_data) mark(at);
+  std::vector<std::uint32_t> addresses;
+  std::uint32_t at = 0;
+  for (const std::uint32_t value : program.pool) {
+    while (at < used.size() && used[at]) ++at;
+    if (at == used.size()) {
+      throw UserError(program.file, 0, "",
+                      fmt::format("scratchpad overflow: no word below {} is left for the constant 0x{:x}",
+                                  used.size(), value));
+    }
+    addresses.push_back(at);
+    program.scratch_data[at++] = value;
+  }
+  return addresses;
+}
+
+std::vector<std::uint64_t> resolve(const Program& program, const std::vector<std::uint32_t>& pool) {
+  std::vector<std::uint64_t> words;
+  words.reserve(program.micros.size());
+  for (const Micro& m : program.micros) {
+    std::uint64_t w = m.word;
+    if (m.imm.kind == Fixup::kLabel) {
+      const int at = program.labels[static_cast<std::size_t>(m.imm.index)].at + m.imm.offset;
+      if (at < 0 || at > 4095) {
+        throw SourceError(program.file, m.line, m.column,
+                          fmt::format("address {} does not exist: 0 to 4095", at));
+      }
+      w = put(w, kImm, static_cast<unsigned>(at));
+    } else if (m.imm.kind == Fixup::kPool) {
+      w = put(w, kImm, pool[static_cast<std::size_t>(m.imm.index)]);
+    }
+    words.push_back(w);
+  }
+  return words;
+}
+
+void check_size(const Program& program, unsigned control_words) {
+  if (program.micros.size() <= control_words) return;
+  const Micro& m = program.micros[control_words];
+  throw SourceError(program.file, m.line, m.column,
+                    fmt::format("control store overflow: this is word {} of {} and {} fit", control_words + 1,
+                                program.micros.size(), control_words));
+}
+
+std::uint32_t entry_of(const Program& program) {
+  if (program.entry_label < 0) return program.entry_address;
+  return static_cast<std::uint32_t>(program.labels[static_cast<std::size_t>(program.entry_label)].at);
+}
+
+std::vector<std::string> split_lines(std::string_view text) {
+  std::vector<std::string> lines(1);
+  for (const char c : text) {
+    if (c == '\n') {
+      lines.emplace_back();
+    } else if (c != '\r') {
+      lines.back() += c;
+    }
+  }
+  return lines;
+}
+
+void check_entry(const Program& program) {
+  if (entry_of(program) < program.micros.size()) return;
+  throw UserError(program.file, 0, "",
+                  fmt::format("the entry {} lies behind the last word", entry_of(program)));
+}
+
+}  // namespace
+
+Assembly assemble(std::string_view source, const std::string& file_name, const AssembleOptions& options) {
+  check_options(options);
+  Program program = parse_program(source, file_name, options.scratch_words);
+  check_entry(program);
+  const std::vector<std::uint32_t> pool = place_pool(program, options.scratch_words);
+  Assembly a;
+  a.file = file_name;
+  a.source = split_lines(source);
+  const bool full = options.pack == "full" && !program.literal;
+  // A program that packing would make fit has to fit a page unpacked, because its branches are followed there
+  // first.
+  check_size(program, full ? kPageWords : options.control_words);
+  a.ucode.words = resolve(program, pool);
+  if (!program.literal) check_program(program, a.ucode.words, entry_of(program), options.multiply_ticks);
+  if (full) {
+    Packed packed = pack_program(program, a.ucode.words, options.multiply_ticks);
+    program = std::move(packed.program);
+    a.lines = std::move(packed.lines);
+    check_size(program, options.control_words);
+    a.ucode.words = resolve(program, pool);
+  } else {
+    for (const Micro& m : program.micros) a.lines.push_back({m.line});
+  }
+  a.ucode.isa_version = kIsaVersion;
+  a.ucode.pack = program.literal ? program.literal_pack : options.pack;
+  a.ucode.multiply_ticks = program.literal ? program.literal_multiply_ticks : options.multiply_ticks;
+  a.ucode.entry = entry_of(program);
+  for (const Label& label : program.labels) {
+    if (!label.name.empty()) a.ucode.symbols[label.name] = static_cast<std::uint32_t>(label.at);
+  }
+  a.ucode.scratch = program.scratch;
+  a.ucode.scratch_data = program.scratch_data;
+  return a;
+}
+
+}  // namespace dendro::tools

@@ -1,0 +1,95 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <map>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "models/parts/host/host_port.h"
+#include "sim/config/parameters.h"
+
+namespace dendro {
+
+enum class Level { kFunction, kEstimate, kCycle, kClocked };
+
+const char* level_name(Level level);
+
+/// A stretch of time with one name; consecutive phases add up to the run.
+struct Phase {
+  std::string name;
+  std::int64_t cycles = 0;
+  bool on_host = false;
+};
+
+/// One unit's counters, in ticks unless the name says otherwise. The first is always `cycles`; `busy`, every
+/// `stall_*` and `idle` add up to it.
+struct UnitStats {
+  std::string unit;  ///< "rds3000.processor"
+  std::vector<std::pair<std::string, std::uint64_t>> values;
+};
+
+/// What the monitor shows: 8-bit RGB, rows top down.
+struct Picture {
+  int width = 0;
+  int height = 0;
+  std::vector<std::uint8_t> rgb;
+};
+
+/// A marked word of the microprogram was executed. `phase_NAME` also begins the machine phase NAME.
+struct MarkEvent {
+  std::string name;
+  std::int64_t tick = 0;
+};
+
+struct MachineOptions {
+  /// Words to log, by word index (page x 4096 + address): symbols of the program that begin with mark_ or phase_.
+  std::map<std::uint32_t, std::string> marks;
+  std::int64_t tick_limit = 0;  ///< ticks the processor may run in one start before UserError; 0: no limit
+  bool all_units = false;       ///< elaborate also the units that this run does not use
+  std::string vcd_file;         ///< clocked only; empty: none
+  std::int64_t vcd_from = 0, vcd_to = INT64_MAX;  ///< window in ticks
+  std::vector<std::string> vcd_units;             ///< empty: all
+  std::map<std::uint32_t, std::string> counted;   ///< `function` only: microwords whose executions are counted
+  std::function<void(std::int64_t tick)> progress;  ///< called now and then with the simulated time; may be empty
+};
+
+/// One machine at one level of fidelity, for one run.
+class Machine {
+ public:
+  virtual ~Machine() = default;
+
+  /// Runs the host program to its end and the machine with it. Once. Throws UserError from the host program or the
+  /// tick limit. At `cycle` and `clocked` this elaborates SystemC: one machine per process.
+  virtual void run(const std::function<void(HostPort&)>& host_program) = 0;
+
+  virtual double clock_hz() const = 0;
+  virtual std::int64_t cycles() const = 0;           ///< whole run, main clock; 0 at `function`
+  virtual std::int64_t machine_cycles() const = 0;   ///< of these, with the processor running, stalls included
+  virtual std::uint64_t instructions() const = 0;    ///< microinstructions executed
+  virtual std::vector<Phase> phases() const = 0;
+  virtual std::vector<UnitStats> units() const = 0;
+  virtual std::vector<MarkEvent> marks() const = 0;
+  /// Executions of the microwords of `MachineOptions::counted`, by name; empty at levels that do not count them.
+  virtual std::vector<std::pair<std::string, std::uint64_t>> executions() const { return {}; }
+  virtual std::vector<std::string> elaborated() const = 0;
+  virtual bool time_dependent() const = 0;           ///< the program read time, so `function` may differ
+  virtual Picture picture() const = 0;               ///< after the last tick
+  /// A word of the machine as a debugger would see it: no time passes.
+  virtual std::uint32_t peek(std::uint32_t address, unsigned function) const = 0;
+};
+
+/// One entry of the list of machines.
+struct MachineType {
+  std::string name;      ///< "rds3000"
+  std::string summary;   ///< one line
+  std::vector<std::string> presets;  ///< the first is the default
+  std::vector<Level> levels;
+  std::string folder;    ///< where its presets are embedded: "models/machines/rds3000"
+  /// Checks the parameters (throws UserError) and builds the machine.
+  std::function<std::unique_ptr<Machine>(const config::ParameterSet&, Level, const MachineOptions&)> make;
+};
+
+}  // namespace dendro

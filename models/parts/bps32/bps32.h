@@ -1,0 +1,36 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "models/parts/bps32/bps32_isa.h"
+#include "models/parts/bps32/bps32_spec.h"
+#include "models/parts/bps32/bps32_state.h"
+
+/// The BPS32 processor: README.md is the data sheet, bps32_isa.h the control word, bps32_execute.h what one word does.
+namespace dendro::bps32 {
+
+/// A control word taken apart once, with what the timing asks of it.
+struct Decoded {
+  std::uint16_t imm = 0;
+  std::uint8_t seq = 0, cond = 0, dest = 0, func = 0, a = 0, b = 0, lane = 0, carry = 0, fill = 0;
+  std::uint8_t dsrc = 0, ydst = 0, busop = 0, busfn = 0, mul = 0;
+  bool pol = false, i0 = false, ea = false, oeb = false, latch = false, halt = false;
+
+  bool uses_d = false;          ///< the D bus reaches R or S
+  bool plain_alu = false;       ///< no shifter, no Q, no special function: F goes to Y and perhaps to RAM[B]
+  bool writes_ram = false;      ///< for plain_alu
+  bool holds = false;           ///< any of the stalls below may apply, or the word is marked
+  bool reads_bus = false;       ///< dsrc is the read data register
+  bool starts_access = false;
+  bool touches_scratch = false;
+  bool reads_time = false;      ///< the branch depends on a condition that only time decides
+  bool marked = false;
+};
+
+Decoded decode(std::uint64_t word);
+
+/// A processor after power-on: everything zero, not running.
+ProcessorState power_on(const ProcessorSpec& spec);
+
+}  // namespace dendro::bps32

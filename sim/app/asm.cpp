@@ -1,0 +1,73 @@
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <memory>
+
+#include "firmware/tools/assembler.h"
+#include "firmware/tools/disassembler.h"
+#include "firmware/tools/ucode.h"
+#include "sim/app/commands.h"
+#include "sim/base/error.h"
+#include "sim/config/document.h"
+#include "sim/study/run_folder.h"
+
+namespace dendro::app {
+namespace {
+
+struct Options {
+  std::string machine, in, out, listing;
+  tools::AssembleOptions assemble;
+};
+
+void check_machine(const std::string& machine, const study::Catalogue& catalogue) {
+  const std::string name = machine.substr(0, machine.find(':'));
+  if (name != "rds3000" || catalogue.machine(name) == nullptr)
+    throw UserError("", 0, machine, "there is a microassembler for rds3000 only");
+}
+
+int assemble(const Options& options) {
+  study::OutputFile out(options.out), listing(options.listing);
+  const tools::Assembly assembly =
+      tools::assemble(config::read_text({false, options.in}, {}), options.in, options.assemble);
+  out.commit(tools::write_ucode(assembly.ucode));
+  if (!options.listing.empty()) listing.commit(tools::listing(assembly));
+  return kGood;
+}
+
+int disassemble(const Options& options) {
+  study::OutputFile out(options.out.empty() ? "-" : options.out);
+  const tools::Ucode ucode = tools::read_ucode(config::read_text({false, options.in}, {}), options.in);
+  out.commit(tools::disassemble(ucode));
+  return kGood;
+}
+
+}  // namespace
+
+void add_asm(CLI::App& app, const study::Catalogue& catalogue, Action& action) {
+  const auto o = std::make_shared<Options>();
+  CLI::App* assembler = app.add_subcommand("asm", "assemble a microprogram");
+  assembler->add_option("machine", o->machine, "rds3000")->required();
+  assembler->add_option("in", o->in, "source, .gia")->required();
+  assembler->add_option("-o,--out", o->out, ".ucode file; - is standard output")->required();
+  assembler->add_option("--pack", o->assemble.pack, "none: a line is a word; full: words are merged")
+      ->check(CLI::IsMember({"none", "full"}));
+  assembler->add_option("--multiply-ticks", o->assemble.multiply_ticks, "latency of the multiplier")->check(CLI::Range(1, 64));
+  assembler->add_option("--listing", o->listing, "listing with addresses, words and ticks; - is standard output");
+  assembler->callback([&, o] {
+    action = [&catalogue, o] {
+      check_machine(o->machine, catalogue);
+      return assemble(*o);
+    };
+  });
+  CLI::App* disassembler = app.add_subcommand("disasm", "turn a .ucode file back into a source");
+  disassembler->add_option("machine", o->machine, "rds3000")->required();
+  disassembler->add_option("in", o->in, ".ucode file")->required();
+  disassembler->add_option("-o,--out", o->out, "source; default: standard output");
+  disassembler->callback([&, o] {
+    action = [&catalogue, o] {
+      check_machine(o->machine, catalogue);
+      return disassemble(*o);
+    };
+  });
+}
+
+}  // namespace dendro::app

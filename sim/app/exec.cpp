@@ -1,0 +1,81 @@
+#include "sim/study/exec.h"
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+#include <cstdio>
+#include <memory>
+
+#include "sim/app/commands.h"
+#include "sim/base/error.h"
+#include "sim/study/run_folder.h"
+
+namespace dendro::app {
+namespace {
+
+struct Options {
+  study::ExecArguments exec;
+  std::vector<std::string> dumps, arguments;
+  std::string json, progress = "auto";
+  bool quiet = false;
+};
+
+std::uint32_t number(const std::string& text, const std::string& whole) {
+  std::size_t used = 0;
+  unsigned long value = 0;
+  try {
+    value = std::stoul(text, &used, 0);
+  } catch (const std::exception&) {
+    used = 0;
+  }
+  if (used == 0 || used != text.size() || value > UINT32_MAX)
+    throw UserError("--dump", 0, "", "`" + whole + "` is not ADDRESS:COUNT, as in 16:8 or 0x10:8");
+  return static_cast<std::uint32_t>(value);
+}
+
+int execute(const study::Catalogue& catalogue, Options options) {
+  if (!options.arguments.empty())
+    throw UserError("", 0, options.arguments.front(), "a microprogram takes no arguments; give it data in its scratch areas");
+  for (const std::string& dump : options.dumps) {
+    const auto colon = dump.find(':');
+    const std::string count = colon == std::string::npos ? "1" : dump.substr(colon + 1);
+    options.exec.dumps.emplace_back(number(dump.substr(0, colon), dump), number(count, dump));
+  }
+  study::OutputFile json(options.json);
+  study::Progress progress(options.progress);
+  const study::ExecOutput output = study::exec_program(catalogue, options.exec, &progress);
+  progress.clear();
+  for (std::size_t i = 0; i < output.dumps.size(); ++i)
+    for (std::size_t n = 0; n < output.dumps[i].size(); ++n)
+      fmt::print("scratch[{}] = 0x{:08x}\n", options.exec.dumps[i].first + n, output.dumps[i][n]);
+  const stats::RunObject& run = output.object;
+  if (!options.quiet && options.json != "-")
+    fmt::print("{}:{} level {}: {} microinstructions, {} cycles{}, exit code {}\n", run.machine, run.preset, run.level,
+               stats::grouped(static_cast<std::int64_t>(run.instructions)), stats::grouped(run.cycles),
+               run.cycles > 0 ? " = " + stats::readable_seconds(run.seconds) : "", output.exit_code);
+  json.commit(study::exec_json(output));
+  return kGood;
+}
+
+}  // namespace
+
+void add_exec(CLI::App& app, const study::Catalogue& catalogue, Action& action) {
+  const auto o = std::make_shared<Options>();
+  CLI::App* command = app.add_subcommand("exec", "run any program on a machine that has a processor");
+  MachineOptions& machine = o->exec.options;
+  command->add_option("machine", o->exec.machine, "NAME[:PRESET] or FILE.toml")->required();
+  command->add_option("program", o->exec.program, ".ucode file, or .gia source")->required();
+  command->add_option("args", o->arguments, "arguments of the program, after --");
+  command->add_option("--level", o->exec.level, "function, cycle or clocked");
+  command->add_option("--set", o->exec.settings, "key=value of the machine")->allow_extra_args(false);
+  command->add_option("--limit", machine.tick_limit, "ticks the processor may run")->check(CLI::PositiveNumber);
+  command->add_option("--dump", o->dumps, "ADDRESS:COUNT scratch words to print")->allow_extra_args(false);
+  command->add_option("--json", o->json, "also write the result here; - is standard output");
+  command->add_option("--progress", o->progress, "auto, on or off")->check(CLI::IsMember({"auto", "on", "off"}));
+  command->add_flag("--quiet", o->quiet, "print no summary");
+  command->add_option("--vcd", machine.vcd_file, "waveform file, at --level clocked");
+  command->add_option("--vcd-from", machine.vcd_from, "first tick of the waveform")->check(CLI::NonNegativeNumber);
+  command->add_option("--vcd-to", machine.vcd_to, "last tick of the waveform")->check(CLI::NonNegativeNumber);
+  command->callback([&catalogue, &action, o] { action = [&catalogue, o] { return execute(catalogue, *o); }; });
+}
+
+}  // namespace dendro::app

@@ -1,0 +1,99 @@
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <memory>
+
+#include "sim/app/commands.h"
+#include "sim/base/error.h"
+#include "sim/study/cache.h"
+#include "sim/study/interval.h"
+#include "sim/study/run_folder.h"
+#include "sim/study/worker.h"
+
+namespace dendro::app {
+namespace {
+
+struct Options {
+  study::RunArguments run;
+  bool interval = false;
+  std::string out, json, progress = "auto";
+  std::string vcd_units;
+  bool quiet = false;
+  int jobs = study::default_jobs();
+};
+
+std::vector<std::string> split_units(const std::string& list) {
+  std::vector<std::string> units;
+  std::string unit;
+  for (const char c : list + ",") {
+    if (c != ',') {
+      unit += c;
+    } else if (!unit.empty()) {
+      units.push_back(unit);
+      unit.clear();
+    }
+  }
+  return units;
+}
+
+void add_interval(const study::RunRequest& request, int jobs, study::Progress& progress, stats::RunObject& object) {
+  const std::vector<study::Metric> metrics = {{"seconds", [](const stats::RunObject& run) { return run.seconds; }}};
+  const auto interval =
+      study::propagate(request, object, metrics, study::worker_runs(jobs, &progress, request.file.scene.name)).front();
+  object.seconds_low = interval.low;
+  object.seconds_high = interval.high;
+  object.contributions = interval.contributions;
+  object.interval_notes = interval.notes;
+}
+
+int run(const study::Catalogue& catalogue, Options options) {
+  options.run.options.vcd_units = split_units(options.vcd_units);
+  const study::RunRequest request = study::prepare_run(catalogue, options.run);
+  if (options.interval && request.level == Level::kFunction)
+    throw UserError("--interval", 0, "", "there is no time at --level function");
+  study::RunFolder folder(options.out.empty() ? "out/" + request.file.scene.name : options.out);
+  study::OutputFile json(options.json);
+  study::Progress progress(options.progress);
+  study::RunOutput output = study::execute_in_worker(request, folder.work(), &progress);
+  progress.clear();
+  output.object.image.path = folder.path() + "/image.png";
+  if (options.interval) add_interval(request, options.jobs, progress, output.object);
+
+  const std::string object = stats::to_json(output.object) + "\n";
+  const std::string summary = stats::to_summary(output.object) + "  files in " + folder.path() + "\n";
+  folder.write("stats.json", object);
+  folder.write("stats.csv", stats::to_csv(output.object));
+  folder.write("summary.txt", summary);
+  folder.write("resolved.toml", study::resolved_scene(request, output, folder.path()));
+  folder.commit();
+  if (!options.quiet) std::fputs(summary.c_str(), stdout);
+  json.commit(object);
+  return kGood;
+}
+
+}  // namespace
+
+void add_run(CLI::App& app, const study::Catalogue& catalogue, Action& action) {
+  const auto o = std::make_shared<Options>();
+  CLI::App* command = app.add_subcommand("run", "draw a scene and say how long the machine took");
+  MachineOptions& machine = o->run.options;
+  command->add_option("scene", o->run.scene, "built-in scene or scene file")->required();
+  command->add_option("--machine", o->run.machine, "NAME[:PRESET] or FILE.toml; default: the scene's");
+  command->add_option("--level", o->run.level, "function, estimate, cycle or clocked; default: the scene's, else cycle");
+  command->add_option("--set", o->run.settings, "key=value of the scene; parameters.* are the machine's")->allow_extra_args(false);
+  command->add_option("--seed", o->run.seed, "of everything random");
+  command->add_flag("--interval", o->interval, "propagate the ranges of all assumptions");
+  command->add_option("--out", o->out, "run directory; default: out/SCENE");
+  command->add_option("--json", o->json, "also write the run object here; - is standard output");
+  command->add_option("--progress", o->progress, "auto, on or off")->check(CLI::IsMember({"auto", "on", "off"}));
+  command->add_flag("--quiet", o->quiet, "print nothing");
+  command->add_option("--jobs", o->jobs, "worker processes of --interval")->check(CLI::Range(1, 1024));
+  command->add_option("--limit", machine.tick_limit, "ticks the processor may run in one start")->check(CLI::PositiveNumber);
+  command->add_flag("--all-units", machine.all_units, "elaborate units that the scene does not use, too");
+  command->add_option("--vcd", machine.vcd_file, "waveform file, at --level clocked");
+  command->add_option("--vcd-from", machine.vcd_from, "first tick of the waveform")->check(CLI::NonNegativeNumber);
+  command->add_option("--vcd-to", machine.vcd_to, "last tick of the waveform")->check(CLI::NonNegativeNumber);
+  command->add_option("--vcd-units", o->vcd_units, "units in the waveform, separated by commas");
+  command->callback([&catalogue, &action, o] { action = [&catalogue, o] { return run(catalogue, *o); }; });
+}
+
+}  // namespace dendro::app

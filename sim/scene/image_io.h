@@ -1,0 +1,36 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace dendro::scene {
+
+/// 8-bit RGB, rows top down.
+struct RgbImage {
+  int width = 0;
+  int height = 0;
+  std::vector<std::uint8_t> rgb;  ///< width * height * 3
+};
+
+/// One channel of floats by its EXR name ("R", "Z", "cost.visits"), width * height values, rows top down.
+using FloatChannel = std::pair<std::string, std::vector<float>>;
+
+/// Writes an 8-bit PNG. Throws UserError when the file cannot be written; then nothing is left of it.
+void write_png(const std::string& path, const RgbImage& image);
+
+/// Reads the first three channels of a picture file as 8-bit RGB; one channel becomes grey. Throws UserError.
+RgbImage read_rgb(const std::string& path);
+
+/// Writes a 32-bit float EXR with the channels in the given order. Throws UserError; then nothing is left of
+/// it.
+void write_exr(const std::string& path, int width, int height, const std::vector<FloatChannel>& channels);
+
+/// Reads all channels of a float picture with their names. Throws UserError.
+std::vector<FloatChannel> read_exr(const std::string& path, int& width, int& height);
+
+/// SHA-256 of the RGB bytes, rows top down, as hex.
+std::string image_digest(const RgbImage& image);
+
+}  // namespace dendro::scene

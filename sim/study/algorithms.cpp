@@ -1,0 +1,108 @@
+#include "sim/study/algorithms.h"
+
+#include <algorithm>
+
+#include "firmware/half_space/job.h"
+#include "firmware/tools/assembler.h"
+#include "firmware/tools/ucode.h"
+#include "sim/base/check.h"
+#include "sim/base/embedded.h"
+#include "sim/base/error.h"
+#include "sim/base/sha256.h"
+
+namespace dendro::study {
+namespace {
+
+struct Source {
+  const char* name;
+  const char* machine;
+  const char* path;
+};
+
+constexpr Source kHalfSpace = {"half_space", "rds3000", "firmware/half_space/rds3000/half_space.gia"};
+
+const Source kSources[] = {kHalfSpace};
+const char* const kPacks[] = {"none", "full"};
+
+tools::Assembly assemble_source(const Source& source, const tools::AssembleOptions& options) {
+  const std::string* text = base::embedded_file(source.path);
+  DENDRO_CHECK(text != nullptr, "{}", source.path);
+  return tools::assemble(*text, source.path, options);
+}
+
+std::int64_t integer_of(const config::ParameterSet& parameters, const std::string& key) {
+  const config::Parameter* p = parameters.find(key);
+  if (p == nullptr || !std::holds_alternative<std::int64_t>(p->value))
+    throw UserError("", 0, key, "this parameter of the machine is missing or no integer");
+  return std::get<std::int64_t>(p->value);
+}
+
+std::string text_of(const config::ParameterSet& parameters, const std::string& key) {
+  const config::Parameter* p = parameters.find(key);
+  if (p == nullptr || !std::holds_alternative<std::string>(p->value))
+    throw UserError("", 0, key, "this parameter of the machine is missing or no string");
+  return std::get<std::string>(p->value);
+}
+
+tools::Ucode assemble_for(const Source& source, const config::ParameterSet& parameters) {
+  tools::AssembleOptions options;
+  options.pack = text_of(parameters, "microcode.pack");
+  options.multiply_ticks = static_cast<int>(integer_of(parameters, "processor.multiply_ticks"));
+  const std::int64_t page = 4096;
+  options.scratch_words = static_cast<unsigned>(integer_of(parameters, "processor.scratch_words"));
+  options.control_words =
+      static_cast<unsigned>(std::min(page, integer_of(parameters, "processor.control_store_words")));
+  return assemble_source(source, options).ucode;
+}
+
+/// The program is assembled for the machine at hand: its latencies and sizes are parameters, and so is how densely
+/// the compiler of its time packed.
+half_space::ProgramImage program_for(const Source& source, const config::ParameterSet& parameters) {
+  const tools::Ucode ucode = assemble_for(source, parameters);
+  half_space::ProgramImage image;
+  image.name = std::string(source.path) + " (pack " + ucode.pack + ")";
+  image.sha256 = base::sha256(tools::write_ucode(ucode));
+  image.words = ucode.words;
+  image.entry = ucode.entry;
+  image.symbols = ucode.symbols;
+  for (const auto& [name, area] : ucode.scratch) image.scratch[name] = {area.address, area.size};
+  image.initial_scratch = ucode.scratch_data;
+  return image;
+}
+
+std::unique_ptr<Job> make_half_space(const scene::Scene& scene, const MachineType& type,
+                                     const config::ParameterSet& parameters) {
+  DENDRO_CHECK(type.name == kHalfSpace.machine, "{}", type.name);
+  const auto scratch = static_cast<std::uint32_t>(integer_of(parameters, "processor.scratch_words"));
+  return half_space::make_job(scene, program_for(kHalfSpace, parameters), scratch);
+}
+
+}  // namespace
+
+const std::vector<Algorithm>& algorithms() {
+  static const std::vector<Algorithm> list = {
+      {"half_space", "trees as intersections of half-spaces, two depth registers a pixel (FG86)", {"rds3000"},
+       "firmware/half_space", make_half_space},
+  };
+  return list;
+}
+
+tools::Ucode half_space_program(const config::ParameterSet& parameters) {
+  return assemble_for(kHalfSpace, parameters);
+}
+
+std::vector<Firmware> firmware_list() {
+  std::vector<Firmware> list;
+  for (const Source& source : kSources) {
+    for (const char* pack : kPacks) {
+      tools::AssembleOptions options;
+      options.pack = pack;
+      const tools::Ucode ucode = assemble_source(source, options).ucode;
+      list.push_back({source.name, source.machine, source.path, pack, base::sha256(tools::write_ucode(ucode)),
+                      ucode.words.size()});
+    }
+  }
+  return list;
+}
+
+}  // namespace dendro::study

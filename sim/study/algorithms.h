@@ -1,0 +1,45 @@
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "firmware/job.h"
+#include "firmware/tools/ucode.h"
+#include "models/machines/machine.h"
+#include "sim/config/parameters.h"
+#include "sim/scene/scene.h"
+
+namespace dendro::study {
+
+/// One entry of the list of algorithms.
+struct Algorithm {
+  std::string name;                   ///< "half_space": the scene's `algorithm` and the name of its own table
+  std::string summary;                ///< one line
+  std::vector<std::string> machines;  ///< names of machines that have firmware for it
+  std::string folder;                 ///< "firmware/half_space"; its scenes lie in scenes/ below
+  /// Prepares a scene for a machine. Throws UserError for what the algorithm or its firmware cannot do.
+  std::function<std::unique_ptr<Job>(const scene::Scene&, const MachineType&, const config::ParameterSet&)> make;
+};
+
+/// The one list of algorithms.
+const std::vector<Algorithm>& algorithms();
+
+/// The half-space program as it is assembled for a machine with these parameters. Throws UserError.
+tools::Ucode half_space_program(const config::ParameterSet& parameters);
+
+/// A microprogram that ships with dendro, in all its packings.
+struct Firmware {
+  std::string name;     ///< "half_space"
+  std::string machine;
+  std::string path;     ///< of its source below the repository's root
+  std::string pack;     ///< "none" or "full"
+  std::string sha256;   ///< of its .ucode text
+  std::size_t words = 0;
+};
+
+/// Everything `dendro firmware` lists.
+std::vector<Firmware> firmware_list();
+
+}  // namespace dendro::study

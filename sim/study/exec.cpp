@@ -1,0 +1,131 @@
+#include "sim/study/exec.h"
+
+#include <fmt/format.h>
+
+#include <chrono>
+#include <nlohmann/json.hpp>
+
+#include "firmware/half_space/host/rds_driver.h"
+#include "firmware/tools/assembler.h"
+#include "firmware/tools/ucode.h"
+#include "sim/base/error.h"
+#include "sim/study/worker.h"
+
+namespace dendro::study {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr std::uint32_t kScratchpad = 0x820000;
+constexpr std::uint32_t kScratchWords = 8192;
+
+bool ends_with(const std::string& text, const std::string& end) {
+  return text.size() >= end.size() && text.compare(text.size() - end.size(), end.size(), end) == 0;
+}
+
+tools::Ucode load_ucode(const ExecArguments& arguments) {
+  const std::string& path = arguments.program;
+  const std::string text = arguments.text.empty() ? config::read_text({false, path}, {}) : arguments.text;
+  if (!ends_with(path, ".gia")) return tools::read_ucode(text, path);
+  return tools::assemble(text, path).ucode;
+}
+
+half_space::ProgramImage image_of(const tools::Ucode& ucode, const std::string& name) {
+  half_space::ProgramImage image;
+  image.name = name;
+  image.words = ucode.words;
+  image.entry = ucode.entry;
+  image.symbols = ucode.symbols;
+  image.initial_scratch = ucode.scratch_data;
+  return image;
+}
+
+struct Prepared {
+  config::Preset preset;
+  const MachineType* type = nullptr;
+  Level level = Level::kCycle;
+  tools::Ucode ucode;
+};
+
+Prepared prepare(const Catalogue& catalogue, const ExecArguments& arguments) {
+  Prepared p;
+  p.preset = config::load_preset(arguments.machine, catalogue.presets(), {});
+  p.type = catalogue.machine(p.preset.machine);
+  p.level = level_of(arguments.level, *p.type);
+  for (const std::string& setting : arguments.settings) {
+    auto [key, text] = config::split_setting(setting);
+    if (key.compare(0, 11, "parameters.") == 0) key = key.substr(11);
+    const config::Node value = config::parse_setting(text);
+    if (value.kind != config::Node::Kind::kValue) throw UserError("--set", 0, key, "a parameter is one value");
+    p.preset.parameters.set(key, value.value, {"--set", 0});
+  }
+  p.ucode = load_ucode(arguments);
+  if (p.ucode.machine != p.type->name)
+    throw UserError(arguments.program, 0, "", "the program is for " + p.ucode.machine + ", not " + p.type->name);
+  for (const auto& [address, words] : arguments.dumps)
+    if (address >= kScratchWords || words > kScratchWords - address)
+      throw UserError("--dump", 0, "", fmt::format("the scratchpad has words 0 to {}", kScratchWords - 1));
+  return p;
+}
+
+Json run_here(const Prepared& p, const ExecArguments& arguments, Progress* progress) {
+  MachineOptions options = arguments.options;
+  if (options.tick_limit == 0) options.tick_limit = kDefaultTickLimit;
+  options.marks = marked_words(p.ucode.symbols);
+  if (progress && progress->enabled()) options.progress = [progress](std::int64_t tick) { progress->tick(tick); };
+  const auto start = std::chrono::steady_clock::now();
+  const auto machine = p.type->make(p.preset.parameters, p.level, options);
+  if (progress) progress->start_run(arguments.program, machine->clock_hz());
+  const half_space::ProgramImage image = image_of(p.ucode, arguments.program);
+  machine->run([&](HostPort& port) {
+    ReportingPort reporting(port, progress);
+    half_space::RdsDriver driver(reporting);
+    reporting.phase("load_program");
+    driver.load_program(image);
+    driver.run_to_interrupt(image.entry);
+    reporting.phase("finish");
+  });
+  RunOutput output;
+  const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  output.object = describe_machine(*machine, seconds);
+  output.object.machine = p.type->name;
+  output.object.preset = p.preset.name;
+  output.object.level = level_name(p.level);
+  stats::check_sanity(output.object);
+  Json json;
+  json["run"] = stats::to_json(output.object);
+  json["exit_code"] = machine->peek(kScratchpad, 0) & 0xFF;
+  json["dumps"] = Json::array();
+  for (const auto& [address, words] : arguments.dumps) {
+    Json dump = Json::array();
+    for (std::uint32_t i = 0; i < words; ++i) dump.push_back(machine->peek(kScratchpad + address + i, 0));
+    json["dumps"].push_back(dump);
+  }
+  return json;
+}
+
+}  // namespace
+
+ExecOutput exec_program(const Catalogue& catalogue, const ExecArguments& arguments, Progress* progress) {
+  const Prepared prepared = prepare(catalogue, arguments);
+  if (!arguments.options.vcd_file.empty() && prepared.level != Level::kClocked)
+    throw UserError("--vcd", 0, "", "waveforms exist at --level clocked only");
+  const Json json = Json::parse(run_in_worker([&] { return run_here(prepared, arguments, progress).dump(); }));
+  ExecOutput output;
+  output.object = stats::from_json(json.at("run").get<std::string>());
+  output.exit_code = json.at("exit_code").get<int>();
+  output.dumps = json.at("dumps").get<std::vector<std::vector<std::uint32_t>>>();
+  return output;
+}
+
+std::string exec_json(const ExecOutput& output) {
+  const Json run = Json::parse(stats::to_json(output.object));
+  Json json = {{"schema", 1}, {"command", "exec"}};
+  for (const char* key : {"machine", "preset", "level", "cycles", "instructions", "clock_hz", "seconds"})
+    json[key] = run[key];
+  json["exit_code"] = output.exit_code;
+  for (const char* key : {"phases", "units", "host", "elaborated", "machine_cycles"}) json[key] = run[key];
+  return json.dump(1) + "\n";
+}
+
+}  // namespace dendro::study

@@ -1,0 +1,33 @@
+#pragma once
+
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "sim/study/run.h"
+
+namespace dendro::study {
+
+/// A run of any program by the machine's generic host: load, run, wait for the halt.
+struct ExecArguments {
+  std::string machine;  ///< NAME[:PRESET] or FILE.toml
+  std::string program;  ///< path of a .ucode file, or of a .gia source that is assembled first
+  std::string text;     ///< of the program, instead of the file's; `program` only names it then
+  std::string level = "cycle";
+  std::vector<std::string> settings;                        ///< key=value of machine parameters
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> dumps;  ///< scratch address, words
+  MachineOptions options;
+};
+
+struct ExecOutput {
+  stats::RunObject object;  ///< without scene, picture and error
+  int exit_code = 0;        ///< low byte of scratch word 0
+  std::vector<std::vector<std::uint32_t>> dumps;
+};
+
+/// Runs the program in a worker process. Throws UserError.
+ExecOutput exec_program(const Catalogue& catalogue, const ExecArguments& arguments, Progress* progress);
+
+std::string exec_json(const ExecOutput& output);
+
+}  // namespace dendro::study

@@ -1,0 +1,74 @@
+#include "sim/study/progress.h"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <cstdio>
+
+#include "sim/stats/run_object.h"
+
+namespace dendro::study {
+namespace {
+
+double seconds_since(std::chrono::steady_clock::time_point then) {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - then).count();
+}
+
+}  // namespace
+
+Progress::Progress(const std::string& mode)
+    : enabled_(mode == "on" || (mode == "auto" && ::isatty(STDERR_FILENO) != 0)),
+      started_(std::chrono::steady_clock::now()),
+      shown_(started_),
+      runs_started_(started_) {}
+
+void Progress::start_run(const std::string& name, double clock_hz) {
+  name_ = name;
+  clock_hz_ = clock_hz;
+  started_ = std::chrono::steady_clock::now();
+}
+
+bool Progress::due() {
+  if (!enabled_ || seconds_since(shown_) < 0.2) return false;
+  shown_ = std::chrono::steady_clock::now();
+  return true;
+}
+
+void Progress::show(const std::string& text) {
+  std::fprintf(stderr, "\r%s\033[K", text.substr(0, 110).c_str());
+  std::fflush(stderr);
+}
+
+void Progress::tick(std::int64_t tick) {
+  if (!due()) return;
+  const double host = seconds_since(started_);
+  const double rate = host > 0 ? static_cast<double>(tick) / host : 0;
+  show(fmt::format("{}: {}, {} simulated, {:.3g} million ticks a second", name_, phase_,
+                   clock_hz_ > 0 ? stats::readable_seconds(static_cast<double>(tick) / clock_hz_) : "", rate / 1e6));
+}
+
+void Progress::runs(const std::string& name, std::size_t done, std::size_t total) {
+  if (done == 0) runs_started_ = std::chrono::steady_clock::now();
+  if (!enabled_) return;
+  const double spent = seconds_since(runs_started_);
+  const std::string left =
+      done == 0 ? "" : fmt::format(", {:.0f} s left", spent / static_cast<double>(done) * static_cast<double>(total - done));
+  show(fmt::format("{}: {} of {} runs ({:.0f} %){}", name, done, total,
+                   total == 0 ? 100.0 : 100.0 * static_cast<double>(done) / static_cast<double>(total), left));
+}
+
+void Progress::clear() {
+  if (enabled_) show("");
+}
+
+void ReportingPort::wait_interrupt() {
+  if (progress_) progress_->phase("machine");
+  port_.wait_interrupt();
+}
+
+void ReportingPort::phase(std::string_view name) {
+  if (progress_) progress_->phase(std::string(name));
+  port_.phase(name);
+}
+
+}  // namespace dendro::study

@@ -1,0 +1,64 @@
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <string>
+
+#include "models/parts/host/host_port.h"
+
+namespace dendro::study {
+
+/// One line on a terminal that says how far long work is; silent into a pipe.
+class Progress {
+ public:
+  /// `mode` is auto, on or off.
+  explicit Progress(const std::string& mode);
+
+  bool enabled() const { return enabled_; }
+  /// The clock of the run that is shown from here on.
+  void start_run(const std::string& name, double clock_hz);
+  void phase(const std::string& name) { phase_ = name; }
+  void tick(std::int64_t tick);
+  /// `done` of `total` runs are finished.
+  void runs(const std::string& name, std::size_t done, std::size_t total);
+  /// Removes the line.
+  void clear();
+
+ private:
+  bool due();
+  void show(const std::string& text);
+
+  bool enabled_ = false;
+  std::string name_, phase_;
+  double clock_hz_ = 0;
+  std::chrono::steady_clock::time_point started_, shown_, runs_started_;
+};
+
+/// A host port that tells a progress line the phase; everything else goes through.
+class ReportingPort : public HostPort {
+ public:
+  ReportingPort(HostPort& port, Progress* progress) : port_(port), progress_(progress) {}
+
+  std::uint32_t read(std::uint32_t address, unsigned function) override { return port_.read(address, function); }
+  void write(std::uint32_t address, std::uint32_t value, unsigned function) override {
+    port_.write(address, value, function);
+  }
+  void dma_to(std::uint32_t address, const std::uint32_t* words, std::size_t count, unsigned function,
+              std::uint32_t step) override {
+    port_.dma_to(address, words, count, function, step);
+  }
+  void dma_from(std::uint32_t address, std::uint32_t* words, std::size_t count, unsigned function,
+                std::uint32_t step) override {
+    port_.dma_from(address, words, count, function, step);
+  }
+  void command(std::uint32_t bits) override { port_.command(bits); }
+  void wait_interrupt() override;
+  void compute(const Work& work) override { port_.compute(work); }
+  void phase(std::string_view name) override;
+
+ private:
+  HostPort& port_;
+  Progress* progress_;
+};
+
+}  // namespace dendro::study

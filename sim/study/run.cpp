@@ -1,0 +1,242 @@
+#include "sim/study/run.h"
+
+#include <fmt/format.h>
+#include <sys/resource.h>
+
+#include <algorithm>
+#include <chrono>
+#include <nlohmann/json.hpp>
+
+#include "sim/base/check.h"
+#include "sim/base/error.h"
+#include "sim/base/sha256.h"
+#include "sim/scene/image_io.h"
+#include "sim/study/worker.h"
+
+namespace dendro::study {
+namespace {
+
+using Json = nlohmann::json;
+
+bool starts_with(const std::string& text, const std::string& start) { return text.compare(0, start.size(), start) == 0; }
+
+/// Whole entries first: a plain value is meant to stand above the entry that a resolved scene has for the same key.
+void apply_parameters(const SceneFile& file, config::ParameterSet& parameters) {
+  for (const auto& [key, node] : file.parameters)
+    if (node.kind == config::Node::Kind::kTable) config::replace(parameters, config::read_parameter(key, node));
+  for (const auto& [key, node] : file.parameters)
+    if (node.kind == config::Node::Kind::kValue) parameters.set(key, node.value, node.where);
+}
+
+void check_inputs(const std::vector<PinnedDigest>& inputs) {
+  for (const PinnedDigest& input : inputs) {
+    const std::string now = base::sha256_file(input.name);
+    if (now != input.sha256)
+      throw UserError(input.where.file, input.where.line, "input",
+                      fmt::format("{} has changed: its SHA-256 is {}, not {}", input.name, now, input.sha256));
+  }
+}
+
+void check_firmware(const std::vector<PinnedDigest>& pins, const Job& job) {
+  for (const PinnedDigest& pin : pins) {
+    const auto images = job.firmware();
+    const bool same = std::any_of(images.begin(), images.end(), [&](const FirmwareImage& image) {
+      return image.name == pin.name && image.sha256 == pin.sha256;
+    });
+    if (!same)
+      throw UserError(pin.where.file, pin.where.line, "firmware",
+                      pin.name + " is not the firmware of this run any more; without this table the scene runs with "
+                                 "what this dendro has");
+  }
+}
+
+MachineOptions machine_options(const RunRequest& request, const Job& job, Progress* progress) {
+  MachineOptions options = request.options;
+  if (options.tick_limit == 0) options.tick_limit = kDefaultTickLimit;
+  for (const FirmwareImage& image : job.firmware()) {
+    const auto marks = marked_words(image.symbols);
+    options.marks.insert(marks.begin(), marks.end());
+  }
+  if (progress && progress->enabled()) options.progress = [progress](std::int64_t tick) { progress->tick(tick); };
+  return options;
+}
+
+std::int64_t peak_rss_bytes() {
+  rusage usage{};
+  ::getrusage(RUSAGE_SELF, &usage);
+  return static_cast<std::int64_t>(usage.ru_maxrss) * 1024;
+}
+
+stats::HostInfo host_info(const Machine& machine, double seconds) {
+  stats::HostInfo host;
+  host.seconds = seconds;
+  const double ticks = machine.cycles() > 0 ? static_cast<double>(machine.machine_cycles())
+                                            : static_cast<double>(machine.instructions());
+  host.simulated_hz = seconds > 0 ? ticks / seconds : 0;
+  host.real_time_factor = host.simulated_hz / machine.clock_hz();
+  host.peak_rss_bytes = peak_rss_bytes();
+  return host;
+}
+
+stats::RunObject describe(const RunRequest& request) {
+  const SceneFile& file = request.file;
+  stats::RunObject object;
+  object.scene = file.scene.name;
+  object.algorithm = request.algorithm->name;
+  object.machine = request.type->name;
+  object.preset = file.preset_label.empty() ? request.preset.name : file.preset_label;
+  object.level = level_name(request.level);
+  object.seed = file.scene.seed;
+  const auto assumptions = request.preset.parameters.assumptions();
+  object.assumptions.assign(assumptions.begin(), assumptions.end());
+  return object;
+}
+
+void add_counters(const Machine& machine, double seconds, stats::RunObject& object) {
+  object.cycles = machine.cycles();
+  object.clock_hz = machine.clock_hz();
+  object.seconds = static_cast<double>(object.cycles) / object.clock_hz;
+  object.machine_cycles = machine.machine_cycles();
+  object.instructions = machine.instructions();
+  object.time_dependent = machine.time_dependent();
+  for (const Phase& p : machine.phases())
+    object.phases.push_back({p.name, p.cycles, static_cast<double>(p.cycles) / object.clock_hz, p.on_host});
+  for (const UnitStats& u : machine.units()) object.units.push_back({u.unit, u.values});
+  for (const MarkEvent& m : machine.marks()) object.marks.emplace_back(m.name, m.tick);
+  object.executions = machine.executions();
+  object.elaborated = machine.elaborated();
+  object.host = host_info(machine, seconds);
+}
+
+void write_pictures(const Job& job, const MachineView& view, const Picture& picture, const std::string& folder) {
+  scene::write_png(folder + "/image.png", {picture.width, picture.height, picture.rgb});
+  std::vector<scene::FloatChannel> channels;
+  for (Layer& layer : job.layers(view)) channels.emplace_back(layer.name, std::move(layer.values));
+  scene::write_exr(folder + "/image.exr", picture.width, picture.height, channels);
+}
+
+void add_picture(const Machine& machine, const Job& job, const std::string& folder, RunOutput& output) {
+  Picture picture = machine.picture();
+  MachineView view;
+  view.peek = [&](std::uint32_t address, unsigned function) { return machine.peek(address, function); };
+  view.width = picture.width;
+  view.height = picture.height;
+  view.rgb = picture.rgb.data();
+  const ErrorReport error = job.compare(view);
+  output.object.error = {error.reference,    error.psnr_db,        error.max_depth_error,
+                         error.wrong_pixels, error.covered_pixels, error.extra};
+  output.object.image = {"", picture.width, picture.height,
+                         scene::image_digest({picture.width, picture.height, picture.rgb})};
+  if (!folder.empty()) write_pictures(job, view, picture, folder);
+  output.rgb = std::move(picture.rgb);
+}
+
+}  // namespace
+
+Level level_of(const std::string& name, const MachineType& type) {
+  std::string known;
+  for (const Level level : type.levels) {
+    if (name == level_name(level)) return level;
+    known += (known.empty() ? "" : ", ") + std::string(level_name(level));
+  }
+  throw UserError("--level", 0, "", fmt::format("{} has no level `{}`: known are {}", type.name, name, known));
+}
+
+RunRequest prepare_run(const Catalogue& catalogue, const RunArguments& arguments) {
+  RunRequest request;
+  request.catalogue = &catalogue;
+  request.file = load_scene(arguments.scene, arguments.settings, catalogue);
+  SceneFile& file = request.file;
+  if (arguments.seed) file.scene.seed = *arguments.seed;
+  const bool from_command = !arguments.machine.empty();
+  const bool resolved = std::any_of(file.parameters.begin(), file.parameters.end(), [](const auto& p) {
+    return p.second.kind == config::Node::Kind::kTable;
+  });
+  if (from_command && resolved)
+    throw UserError("--machine", 0, "", file.scene.file + " carries the parameters of its machine; use --set");
+  const std::string machine = from_command ? arguments.machine : file.scene.machine;
+  const config::Where where = from_command ? config::Where{"--machine", 0} : file.machine_where;
+  request.preset = config::load_preset(machine, catalogue.presets(), where);
+  request.type = catalogue.machine(request.preset.machine);
+  request.algorithm = catalogue.algorithm(file.scene.algorithm);
+  DENDRO_CHECK(request.type && request.algorithm, "{} {}", request.preset.machine, file.scene.algorithm);
+  const auto& able = request.algorithm->machines;
+  if (std::find(able.begin(), able.end(), request.type->name) == able.end()) {
+    std::string list;
+    for (const auto& name : able) list += (list.empty() ? "" : ", ") + name;
+    throw UserError(where.file, where.line, "machine",
+                    fmt::format("{} has no firmware for {}; it runs on {}", request.type->name,
+                                file.scene.algorithm, list));
+  }
+  apply_parameters(file, request.preset.parameters);
+  const std::string level = !arguments.level.empty() ? arguments.level : file.level.value_or("cycle");
+  request.level = level_of(level, *request.type);
+  request.options = arguments.options;
+  if (!request.options.vcd_file.empty() && request.level != Level::kClocked)
+    throw UserError("--vcd", 0, "", "waveforms exist at --level clocked only");
+  check_inputs(file.inputs);
+  return request;
+}
+
+std::map<std::uint32_t, std::string> marked_words(const std::map<std::string, std::uint32_t>& symbols) {
+  std::map<std::uint32_t, std::string> marks;
+  for (const auto& [name, address] : symbols)
+    if (starts_with(name, "mark_") || starts_with(name, "phase_")) marks[address] = name;
+  return marks;
+}
+
+RunOutput execute(const RunRequest& request, const std::string& folder, Progress* progress) {
+  const auto job = request.algorithm->make(request.file.scene, *request.type, request.preset.parameters);
+  check_firmware(request.file.firmware, *job);
+  RunOutput output;
+  output.object = describe(request);
+  output.object.facts = job->facts();
+  for (const std::string& path : job->input_files()) output.inputs.emplace_back(path, base::sha256_file(path));
+  for (const FirmwareImage& image : job->firmware()) output.firmware.emplace_back(image.name, image.sha256);
+
+  const auto start = std::chrono::steady_clock::now();
+  const auto machine =
+      request.type->make(request.preset.parameters, request.level, machine_options(request, *job, progress));
+  if (progress) progress->start_run(request.file.scene.name, machine->clock_hz());
+  machine->run([&](HostPort& port) {
+    ReportingPort reporting(port, progress);
+    job->run(reporting);
+  });
+  const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  add_counters(*machine, seconds, output.object);
+  stats::check_sanity(output.object);
+  if (request.with_picture) add_picture(*machine, *job, folder, output);
+  return output;
+}
+
+stats::RunObject describe_machine(const Machine& machine, double seconds) {
+  stats::RunObject object;
+  add_counters(machine, seconds, object);
+  return object;
+}
+
+RunOutput execute_in_worker(const RunRequest& request, const std::string& folder, Progress* progress) {
+  return from_bytes(run_in_worker([&] { return to_bytes(execute(request, folder, progress)); }));
+}
+
+std::string to_bytes(const RunOutput& output) {
+  Json json;
+  json["object"] = stats::to_json(output.object);
+  json["rgb"] = Json::binary(output.rgb);
+  json["inputs"] = output.inputs;
+  json["firmware"] = output.firmware;
+  const auto cbor = Json::to_cbor(json);
+  return std::string(cbor.begin(), cbor.end());
+}
+
+RunOutput from_bytes(const std::string& bytes) {
+  const Json json = Json::from_cbor(bytes);
+  RunOutput output;
+  output.object = stats::from_json(json.at("object").get<std::string>());
+  output.rgb = json.at("rgb").get_binary();
+  output.inputs = json.at("inputs").get<std::vector<std::pair<std::string, std::string>>>();
+  output.firmware = json.at("firmware").get<std::vector<std::pair<std::string, std::string>>>();
+  return output;
+}
+
+}  // namespace dendro::study

@@ -1,0 +1,125 @@
+#include "sim/study/run_folder.h"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+
+#include "sim/base/error.h"
+
+namespace dendro::study {
+namespace {
+
+namespace fs = std::filesystem;
+
+[[noreturn]] void cannot_write(const std::string& path, const std::string& why) {
+  throw UserError(path, 0, "", "cannot write here: " + why);
+}
+
+void write_file(const std::string& path, const std::string& text, const std::string& shown) {
+  std::ofstream out(path, std::ios::binary | std::ios::trunc);
+  out << text;
+  out.close();
+  if (!out) cannot_write(shown, "the disk is full or the folder is read-only");
+}
+
+void rename_over(const fs::path& from, const fs::path& to) {
+  std::error_code error;
+  fs::rename(from, to, error);
+  if (error) cannot_write(to.string(), error.message());
+}
+
+/// Folders that must be made for `folder` to exist, outermost first.
+std::vector<std::string> missing_folders(const fs::path& folder) {
+  std::vector<std::string> missing;
+  std::error_code error;
+  for (fs::path at = folder; !at.empty() && !fs::exists(at, error); at = at.parent_path())
+    missing.insert(missing.begin(), at.string());
+  return missing;
+}
+
+}  // namespace
+
+RunFolder::RunFolder(const std::string& path) {
+  std::string plain = path;
+  while (plain.size() > 1 && plain.back() == '/') plain.pop_back();
+  path_ = plain;
+  std::error_code error;
+  if (fs::exists(path_, error) && !fs::is_directory(path_, error)) cannot_write(path_, "it is a file, not a folder");
+  const fs::path absolute = fs::absolute(path_).lexically_normal();
+  made_ = missing_folders(absolute.parent_path());
+  fs::create_directories(absolute.parent_path(), error);
+  const bool is_root = !absolute.has_filename();
+  const fs::path parent = is_root ? absolute : absolute.parent_path();
+  work_ = (parent / fmt::format(".{}.partial-{}", absolute.filename().string(), ::getpid())).string();
+  if (!error) fs::create_directory(work_, error);
+  if (!error && fs::is_directory(path_) && ::access(path_.c_str(), W_OK) != 0)
+    error = std::make_error_code(std::errc::permission_denied);
+  if (error) {
+    const std::string why = error.message();
+    std::error_code ignored;
+    fs::remove_all(work_, ignored);
+    for (auto made = made_.rbegin(); made != made_.rend(); ++made) fs::remove(*made, ignored);
+    cannot_write(path_, why);
+  }
+}
+
+RunFolder::~RunFolder() {
+  if (committed_) return;
+  std::error_code ignored;
+  fs::remove_all(work_, ignored);
+  for (auto made = made_.rbegin(); made != made_.rend(); ++made) fs::remove(*made, ignored);
+}
+
+void RunFolder::write(const std::string& name, const std::string& text) {
+  write_file(work_ + "/" + name, text, path_ + "/" + name);
+}
+
+void RunFolder::commit() {
+  if (!fs::exists(path_)) {
+    rename_over(work_, path_);
+  } else {
+    for (const auto& entry : fs::directory_iterator(work_))
+      rename_over(entry.path(), fs::path(path_) / entry.path().filename());
+    fs::remove(work_);
+  }
+  committed_ = true;
+}
+
+OutputFile::OutputFile(const std::string& path) : path_(path) {
+  if (path_.empty() || path_ == "-") return;
+  std::error_code error;
+  const auto status = fs::status(path_, error);
+  if (fs::is_directory(status)) cannot_write(path_, "it is a folder");
+  if (fs::exists(status) && !fs::is_regular_file(status)) return;
+  if (fs::exists(status) && ::access(path_.c_str(), W_OK) != 0) cannot_write(path_, "permission denied");
+  work_ = fmt::format("{}.partial-{}", path_, ::getpid());
+  std::ofstream out(work_);
+  if (!out) {
+    work_.clear();
+    cannot_write(path_, "the folder does not exist or is read-only");
+  }
+}
+
+OutputFile::~OutputFile() {
+  std::error_code ignored;
+  if (!work_.empty()) fs::remove(work_, ignored);
+}
+
+void OutputFile::commit(const std::string& text) {
+  if (path_.empty()) return;
+  if (path_ == "-") {
+    std::fwrite(text.data(), 1, text.size(), stdout);
+    std::fflush(stdout);
+  } else if (work_.empty()) {
+    write_file(path_, text, path_);
+  } else {
+    write_file(work_, text, path_);
+    rename_over(work_, path_);
+    work_.clear();
+  }
+}
+
+}  // namespace dendro::study

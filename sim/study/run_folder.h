@@ -1,0 +1,49 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace dendro::study {
+
+/// A run directory that appears whole or not at all: files go to a working folder beside it until commit().
+class RunFolder {
+ public:
+  /// Makes the working folder. Throws UserError when nothing can be written there.
+  explicit RunFolder(const std::string& path);
+  /// Without a commit removes what was made, folders above included.
+  ~RunFolder();
+  RunFolder(const RunFolder&) = delete;
+  RunFolder& operator=(const RunFolder&) = delete;
+
+  /// Where files are to be written now.
+  const std::string& work() const { return work_; }
+  /// Where they will be.
+  const std::string& path() const { return path_; }
+
+  void write(const std::string& name, const std::string& text);
+  /// Moves everything into place; files of the same names are replaced, others in the directory stay.
+  void commit();
+
+ private:
+  std::string path_, work_;
+  std::vector<std::string> made_;  // folders above, outermost first
+  bool committed_ = false;
+};
+
+/// A single output file that appears whole or not at all; a device or pipe is written to directly. "-" is standard
+/// output.
+class OutputFile {
+ public:
+  /// Throws UserError when it cannot be written; an empty path means no file.
+  explicit OutputFile(const std::string& path);
+  ~OutputFile();
+  OutputFile(const OutputFile&) = delete;
+  OutputFile& operator=(const OutputFile&) = delete;
+
+  void commit(const std::string& text);
+
+ private:
+  std::string path_, work_;
+};
+
+}  // namespace dendro::study

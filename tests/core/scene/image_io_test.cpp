@@ -1,0 +1,75 @@
+#include "sim/scene/image_io.h"
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+
+#include "sim/base/error.h"
+#include "sim/base/sha256.h"
+
+namespace dendro::scene {
+namespace {
+
+std::string temporary(const std::string& name) { return testing::TempDir() + "dendro_image_io_" + name; }
+
+RgbImage gradient(int width, int height) {
+  RgbImage image{width, height, {}};
+  for (int i = 0; i < width * height * 3; ++i) image.rgb.push_back(static_cast<std::uint8_t>(i * 7));
+  return image;
+}
+
+TEST(Png, ComesBackBitForBit) {
+  const std::string path = temporary("a.png");
+  const RgbImage image = gradient(13, 5);
+  write_png(path, image);
+  const RgbImage back = read_rgb(path);
+  EXPECT_EQ(back.width, 13);
+  EXPECT_EQ(back.height, 5);
+  EXPECT_EQ(back.rgb, image.rgb);
+  std::filesystem::remove(path);
+}
+
+TEST(Exr, KeepsFloatsAndTheNamesOfItsLayers) {
+  const std::string path = temporary("a.exr");
+  const std::vector<FloatChannel> channels{
+      {"R", {0, 0.1f, 1e-20f, 4}}, {"Z", {4095, -1, 2.5f, 3}}, {"cost.visits", {1, 2, 3, 4}}};
+  write_exr(path, 2, 2, channels);
+  int width = 0, height = 0;
+  const std::vector<FloatChannel> back = read_exr(path, width, height);
+  EXPECT_EQ(width, 2);
+  EXPECT_EQ(height, 2);
+  for (const FloatChannel& channel : channels) {
+    bool found = false;
+    for (const FloatChannel& other : back) {
+      if (other.first != channel.first) continue;
+      found = true;
+      EXPECT_EQ(other.second, channel.second) << channel.first;
+    }
+    EXPECT_TRUE(found) << channel.first;
+  }
+  std::filesystem::remove(path);
+}
+
+TEST(Picture, ThatCannotBeWrittenIsAUserErrorAndLeavesNothing) {
+  const std::string path = temporary("none") + "/deep/a.png";
+  EXPECT_THROW(write_png(path, gradient(2, 2)), UserError);
+  EXPECT_FALSE(std::filesystem::exists(path));
+  EXPECT_THROW(write_exr(temporary("none") + "/deep/a.exr", 1, 1, {{"R", {0}}}), UserError);
+}
+
+TEST(Picture, ThatCannotBeReadIsAUserError) {
+  EXPECT_THROW(read_rgb(temporary("missing.png")), UserError);
+  const std::string path = temporary("noise.png");
+  std::ofstream(path) << "not a picture";
+  EXPECT_THROW(read_rgb(path), UserError);
+  std::filesystem::remove(path);
+}
+
+TEST(ImageDigest, IsThatOfTheRgbBytes) {
+  const RgbImage image{1, 1, {'a', 'b', 'c'}};
+  EXPECT_EQ(image_digest(image), "ba7816bf8f01cfea414140de5dae2223b00361a396177a9cb410ff61f20015ad");
+}
+
+}  // namespace
+}  // namespace dendro::scene
