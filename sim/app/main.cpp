@@ -41,29 +41,45 @@ int guarded(const dendro::app::Action& action) {
   }
 }
 
+std::string names_of(const CLI::App& app) {
+  std::string names;
+  for (const CLI::App* command : app.get_subcommands([](const CLI::App*) { return true; }))
+    names += (names.empty() ? "" : ", ") + command->get_name();
+  return names;
+}
+
+/// What is wrong with the command line, in one line.
+std::string complaint(const CLI::App& app, const CLI::ParseError& error, int argc, char** argv) {
+  const std::string first = argc > 1 ? argv[1] : "";
+  if (app.get_subcommands().empty() && (first.empty() || first[0] != '-'))
+    return (first.empty() ? "a command is missing" : first + ": there is no such command") + ": known are " + names_of(app);
+  const std::string command = app.get_subcommands().empty() ? "" : " " + app.get_subcommands().front()->get_name();
+  return std::string(error.what()) + " (dendro" + command + " --help says what is allowed)";
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
   using namespace dendro;
   study::catch_interrupts();
   const study::Catalogue catalogue = {app::machines(), study::algorithms(), study::share_folder()};
-  CLI::App app{"dendro: a cycle-level simulator of the graphics machines on which computer-graphics trees were first drawn",
+  CLI::App command{"dendro: a cycle-level simulator of the graphics machines on which computer-graphics trees were first drawn",
                "dendro"};
-  app.require_subcommand(1);
-  app.set_version_flag("--version", "dendro 0.1.0");
+  command.require_subcommand(1);
+  command.set_version_flag("--version", "dendro 0.1.0");
   app::Action action;
-  app::add_run(app, catalogue, action);
-  app::add_lists(app, catalogue, action);
-  app::add_table(app, catalogue, action);
-  app::add_levels(app, catalogue, action);
-  app::add_exec(app, catalogue, action);
-  app::add_asm(app, catalogue, action);
-  app::add_bench(app, catalogue, action);
+  app::add_run(command, catalogue, action);
+  app::add_lists(command, catalogue, action);
+  app::add_table(command, catalogue, action);
+  app::add_levels(command, catalogue, action);
+  app::add_exec(command, catalogue, action);
+  app::add_asm(command, catalogue, action);
+  app::add_bench(command, catalogue, action);
   try {
-    app.parse(argc, argv);
+    command.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
-    if (error.get_exit_code() == static_cast<int>(CLI::ExitCodes::Success)) return app.exit(error);
-    return say(app::kUserError, std::string(error.what()) + " (dendro --help and dendro COMMAND --help say what is allowed)");
+    if (error.get_exit_code() == static_cast<int>(CLI::ExitCodes::Success)) return command.exit(error);
+    return say(app::kUserError, complaint(command, error, argc, argv));
   }
   return guarded(action);
 }

@@ -76,7 +76,7 @@ class Explorer {
   /// True when the run is to be tried again without the key that is to blame.
   bool refuse(VariedRun& run, const UserError& error, bool settle) {
     const bool alone = run.assignment.size() == 1;
-    const std::string key = alone ? run.assignment.begin()->first : error.key();
+    const std::string key = alone ? run.assignment.begin()->first : blamed(run.assignment, error.key());
     if (run.assignment.count(key) == 0) throw error;
     const std::string value = config::to_text(run.assignment[key]);
     if (!settle || alone) {
@@ -88,6 +88,14 @@ class Explorer {
                                  error.message()));
     run.assignment.erase(key);
     return true;
+  }
+
+  /// The assigned parameter behind a key that the machine complained about: itself, or the one that it follows.
+  std::string blamed(const Assignment& assignment, std::string key) const {
+    const config::ParameterSet& parameters = request_.preset.parameters;
+    for (const Parameter* p = parameters.find(key); p && !assignment.count(key); p = parameters.find(key))
+      key = p->follows;
+    return key;
   }
 
   const RunRequest& request_;

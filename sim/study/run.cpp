@@ -186,6 +186,8 @@ std::map<std::uint32_t, std::string> marked_words(const std::map<std::string, st
 }
 
 RunOutput execute(const RunRequest& request, const std::string& folder, Progress* progress) {
+  // The machine checks its parameters before a program is assembled for it, so that the parameter is blamed.
+  request.type->make(request.preset.parameters, Level::kFunction, {});
   const auto job = request.algorithm->make(request.file.scene, *request.type, request.preset.parameters);
   check_firmware(request.file.firmware, *job);
   RunOutput output;

@@ -133,10 +133,12 @@ TableRow picture_row(const Propagated& p, const Metric& metric, const Interval& 
   }
   row.note = fmt::format("{:g} planes scanned and {:g} edge-on; ", scanned, edge_on);
   for (const stats::PhaseRow& phase : p.nominal.phases)
-    if (!phase.on_host) row.note += fmt::format("{} {:.2f} s ", phase.name, phase.seconds);
+    if (!phase.on_host && phase.seconds >= 0.005)
+      row.note += fmt::format("{} {:.2f} s, ", phase.name, phase.seconds);
+  row.note += fmt::format("{:.1f} us a pixel of the box", *row.simulated / kBoxPixels * 1e6);
   if (!row.inside()) {
     const bool slow = *row.low > *row.published;
-    row.note += fmt::format("; {} even at the {} corner: the box would have to shrink {} than it does", 
+    row.note += fmt::format("; {} even at the {} corner: the box would have to shrink {} than it does",
                             slow ? "slower" : "faster", slow ? "fastest" : "slowest", slow ? "sooner" : "later");
   }
   return row;

@@ -142,7 +142,7 @@ inline void in_child(const std::function<void()>& body) {
 
 }  // namespace dendro::rds3000
 
-int sc_main(int argc, char** argv) {
+int main(int argc, char** argv) {
   sc_core::sc_report_handler::set_actions(sc_core::SC_INFO, sc_core::SC_DO_NOTHING);
   ::testing::InitGoogleTest(&argc, argv);
   return RUN_ALL_TESTS();

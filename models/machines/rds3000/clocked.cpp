@@ -149,8 +149,6 @@ void ClockedEngine::obey_commands(std::int64_t n) {
     }
     if (c.reset) {
       processor_.reset();
-      if (own_.phase == Phase::kGranted) own_.phase = Phase::kNone;
-      own_.abandoned = own_.in_flight();
     } else if (c.run && !running && !error_) {
       processor_.run();
       runs_.push_back({n + 1, n + 1});

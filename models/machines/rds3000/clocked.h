@@ -51,7 +51,7 @@ class ClockedEngine : public sc_core::sc_module, public Engine {
   /// One access, of either master, from its request to its completion.
   struct Access {
     Phase phase = Phase::kNone;
-    bool write = false, abandoned = false, masked = false;
+    bool write = false, masked = false;
     Device device = Device::None;
     std::uint32_t address = 0, data = 0, cards = 0;
     unsigned function = 0;

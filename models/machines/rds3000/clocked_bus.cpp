@@ -26,7 +26,6 @@ void ClockedEngine::start_access(Access& access, std::int64_t asks_at, bool writ
                                  std::uint32_t data, unsigned function) {
   access.phase = Phase::kAsking;
   access.write = write;
-  access.abandoned = false;
   access.address = address & kAddressMask;
   access.data = data;
   access.function = function & 0xF;
@@ -81,10 +80,7 @@ void ClockedEngine::grant(Access& access, std::int64_t n) {
     access.answer = read_device(access, from_host);
   }
 
-  if (!from_host) {
-    if (access.abandoned) access.phase = Phase::kNone;
-    return;
-  }
+  if (!from_host) return;
   const bool steals = access.device == Device::ControlStore || access.device == Device::Scratchpad ||
                       access.device == Device::Processor;
   if (steals) processor_.steal(n);

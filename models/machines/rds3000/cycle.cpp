@@ -21,11 +21,31 @@ struct CyclePort {
   bool vertical_blank() const { return raster().vertical_blank(engine.now_ * engine.tick_ps()); }
   bool field() const { return raster().second_field(engine.now_ * engine.tick_ps()); }
 
+  // A lores pixel of the first bank, which is what pixel loops access, without the detour over the device map.
+  static bool is_plain_pixel(std::uint32_t address, unsigned function) {
+    return function == bps32::kFnLores && address < 0x100000;
+  }
+  std::uint32_t& pixel(std::uint32_t address) const {
+    return engine.devices_.memory.state().pixels[(address >> 11 << 9) | (address >> 1 & 0x1FF)];
+  }
+
   void start_read(std::uint32_t address, unsigned function) {
+    if (is_plain_pixel(address, function)) {
+      engine.start_pixel_access(false, false);
+      engine.processor_.read_data = pixel(address);
+      return;
+    }
     engine.start_access(false, address, function);
     engine.processor_.read_data = engine.devices_.read(address, function);
   }
   void start_write(std::uint32_t address, std::uint32_t data, unsigned function) {
+    if (is_plain_pixel(address, function)) {
+      const std::uint32_t all = engine.spec_.memory.pixel_mask();
+      const std::uint32_t mask = engine.devices_.memory.state().mask_lores & all;
+      engine.start_pixel_access(true, mask != all);
+      pixel(address) = (pixel(address) & ~mask) | (data & mask);
+      return;
+    }
     const std::int64_t granted = engine.start_access(true, address, function);
     engine.devices_.write(address, data, function);
     engine.change_video(address, granted);
@@ -72,10 +92,21 @@ std::int64_t CycleEngine::grant(std::int64_t at, bool write, std::uint32_t addre
   return timing_.grant(at, work, write);
 }
 
+inline void CycleEngine::start_pixel_access(bool write, bool masked) {
+  const std::int64_t asked = std::max(now_ + spec_.bus.arbitration_ticks, bus_free_);
+  const dr64::Work work{true, (1u << spec_.memory.cards_per_bank) - 1, masked};
+  book_access(write, asked, timing_.grant(asked, work, write), spec_.memory.read_ticks);
+}
+
 std::int64_t CycleEngine::start_access(bool write, std::uint32_t address, unsigned function) {
   const std::int64_t asked = std::max(now_ + spec_.bus.arbitration_ticks, bus_free_);
   int read_ticks;
   const std::int64_t granted = grant(asked, write, address, function, read_ticks);
+  book_access(write, asked, granted, read_ticks);
+  return granted;
+}
+
+inline void CycleEngine::book_access(bool write, std::int64_t asked, std::int64_t granted, int read_ticks) {
   const int held = write ? spec_.bus.write_ticks : 1;
   bus_free_ = granted + held;
   access_done_ = granted + (write ? held : read_ticks);
@@ -83,7 +114,6 @@ std::int64_t CycleEngine::start_access(bool write, std::uint32_t address, unsign
   if (spec_.processor.accesses_in_flight == 0) hold_ = std::max(hold_, access_done_);
   (write ? bus_counters_.processor_writes : bus_counters_.processor_reads) += 1;
   bus_counters_.busy += static_cast<std::uint64_t>(bus_free_ - asked);
-  return granted;
 }
 
 void CycleEngine::change_video(std::uint32_t address, std::int64_t tick) {
@@ -92,7 +122,13 @@ void CycleEngine::change_video(std::uint32_t address, std::int64_t tick) {
   raster_before_ = raster_;
   raster_from_ = tick;
   raster_ = {video::raster_of(devices_.video, spec_.video, spec_.memory.fetch_bits), tick * tick_ps()};
-  timing_.set_fetches({raster_.raster, raster_.origin_ps, raster_.origin_ps + 1, tick_ps()});
+  timing_.set_fetches({raster_.raster, raster_.origin_ps, raster_.origin_ps, tick_ps()});
+}
+
+// The common case of hold(): nothing keeps the word from executing now.
+inline bool CycleEngine::ready(const Decoded& word) const {
+  return now_ >= hold_ && (!word.reads_bus || now_ >= data_ready_) && (!word.starts_access || now_ >= access_done_) &&
+         (!word.touches_scratch || spec_.processor.scratch_ticks == 1);
 }
 
 // Lives through the ticks in which the word cannot execute; false when `end` comes first.
@@ -126,43 +162,61 @@ bool CycleEngine::hold(const Decoded& word, std::int64_t end) {
 }
 
 void CycleEngine::passed(const Decoded& word) {
-  if (word.marked) marks_.push_back({mark_names_.at(processor_.page * bps32::kPageWords + processor_.pc), now_});
+  if (word.marked) marks_.push_back({mark_names_.at(static_cast<std::uint32_t>(bps32::page_base(processor_) + processor_.pc)), now_});
   time_dependent_ |= word.reads_time;
 }
 
+// Words that only compute or jump are done here with time and address in registers; all else goes through execute().
 void CycleEngine::stride(std::int64_t end) {
   CyclePort port{*this};
-  const Decoded* const words = decoded_.data() + processor_.page * bps32::kPageWords;
+  const Decoded* const words = decoded_.data() + bps32::page_base(processor_);
   const int branch_ticks = spec_.processor.taken_branch_ticks;
-  while (now_ < end) {
-    const Decoded& word = words[processor_.pc];
-    if (word.holds || now_ < hold_) {
-      if (!hold(word, end)) return;
-      passed(word);
+  std::int64_t now = now_;
+  std::uint16_t pc = processor_.pc;
+  while (now < end) {
+    const Decoded& word = words[pc];
+    const std::uint16_t next = (pc + 1) & am2910::kAddressMask;
+    if (!word.holds && now >= hold_ && processor_.product_in == 0 && word.kind != Decoded::kGeneric) {
+      if (word.kind == Decoded::kAlu) {
+        word.alu(processor_, word);
+        pc = next;
+      } else {
+        pc = bps32::condition(processor_, word.cond, port) != word.pol ? word.imm : next;
+      }
+      ++now;
+    } else {
+      now_ = now;
+      processor_.pc = pc;
+      if (word.holds || now < hold_) {
+        if (!ready(word) && !hold(word, end)) return;
+        if (word.marked || word.reads_time) passed(word);
+      }
+      bps32::execute(processor_, word, spec_.processor, port);
+      now = ++now_;
+      pc = processor_.pc;
+      if (word.halt) {
+        stopped(now);
+        return;
+      }
     }
-    const std::uint16_t next = (processor_.pc + 1) & am2910::kAddressMask;
-    bps32::execute(processor_, word, spec_.processor, port);
-    ++now_;
-    if (branch_ticks != 0 && processor_.pc != next) {
-      branch_hold_ = now_ + branch_ticks;
+    if (branch_ticks != 0 && pc != next) {
+      branch_hold_ = now + branch_ticks;
       hold_ = std::max(hold_, branch_hold_);
     }
-    if (word.halt) {
-      stopped(now_);
-      return;
-    }
   }
+  now_ = now;
+  processor_.pc = pc;
 }
 
 void CycleEngine::stopped(std::int64_t at) {
   processor_.running = false;
-  runs_.push_back({run_from_, at});
+  if (at > run_from_) runs_.push_back({run_from_, at});
 }
 
 void CycleEngine::find_loop() {
   LoopFinder finder;
   while (processor_.running) {
-    const std::uint32_t at = processor_.page * bps32::kPageWords + processor_.pc;
+    const auto at = static_cast<std::uint32_t>(bps32::page_base(processor_) + processor_.pc);
     const std::int64_t before = now_;
     while (processor_.running && now_ == before) stride(now_ + 1);
     if (finder.see(at)) {

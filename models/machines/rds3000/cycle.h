@@ -40,13 +40,16 @@ class CycleEngine : public Engine {
 
   void run_until(std::int64_t end);
   void stride(std::int64_t end);
+  bool ready(const bps32::Decoded& word) const;
   bool hold(const bps32::Decoded& word, std::int64_t end);
   void passed(const bps32::Decoded& word);
   void stopped(std::int64_t at);
   void find_loop();
   void decode(std::size_t word);
 
+  void start_pixel_access(bool write, bool masked);
   std::int64_t start_access(bool write, std::uint32_t address, unsigned function);
+  void book_access(bool write, std::int64_t asked, std::int64_t granted, int read_ticks);
   std::int64_t grant(std::int64_t at, bool write, std::uint32_t address, unsigned function, int& read_ticks);
   void change_video(std::uint32_t address, std::int64_t tick);
   std::int64_t tick_ps() const { return spec_.processor.tick_ps; }

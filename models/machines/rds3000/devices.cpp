@@ -35,7 +35,10 @@ std::uint32_t read_processor_board(const ProcessorState& processor, std::uint32_
       if (word >= processor.control.size()) return 0;
       return static_cast<std::uint32_t>(processor.control[word] >> (a & 1 ? 32 : 0));
     }
-    case Device::Scratchpad: return processor.scratch[(a - kScratchpad) & (processor.scratch.size() - 1)];
+    case Device::Scratchpad: {
+      const std::size_t word = a - kScratchpad;
+      return word < processor.scratch.size() ? processor.scratch[word] : 0;
+    }
     case Device::Processor: return processor.pc | std::uint32_t{processor.page} << 12;
     default: return 0;
   }
@@ -52,7 +55,9 @@ std::int64_t write_processor_board(ProcessorState& processor, std::uint32_t addr
       processor.control[word] = kept | std::uint64_t{data} << shift;
       return static_cast<std::int64_t>(word);
     }
-    case Device::Scratchpad: processor.scratch[(a - kScratchpad) & (processor.scratch.size() - 1)] = data; return -1;
+    case Device::Scratchpad:
+      if (a - kScratchpad < processor.scratch.size()) processor.scratch[a - kScratchpad] = data;
+      return -1;
     case Device::Processor:
       processor.z = data & bps32::kStatusZ;
       processor.n = data & bps32::kStatusN;
@@ -70,6 +75,8 @@ void reset(ProcessorState& processor) {
   processor.pc = processor.restart_pc;
   processor.page = processor.restart_page;
   processor.depth = 0;
+  if (processor.product_in > 0) processor.product = processor.pending_product;
+  processor.product_in = 0;
   processor.running = false;
   processor.interrupt = false;
 }

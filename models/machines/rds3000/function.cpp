@@ -71,7 +71,7 @@ void FunctionEngine::wait_interrupt() {
 
 void FunctionEngine::run_to_halt() {
   std::vector<bps32::Decoded> decoded(bps32::kPageWords);
-  const std::size_t base = processor_.page * std::size_t{bps32::kPageWords};
+  const std::size_t base = bps32::page_base(processor_);
   for (std::size_t i = 0; i < decoded.size(); ++i) decoded[i] = bps32::decode(processor_.control[base + i]);
   for (const auto& [index, name] : options_.marks)
     if (index >= base && index < base + bps32::kPageWords) decoded[index - base].marked = true;

@@ -47,7 +47,7 @@ Output special(unsigned code, const Input& in) {
   Sum sum{0, false, false};
   bool flags_done = false;
   const auto divide = [&] {
-    sum = in.divide_sign ? add(in.s, ~in.r, in.carry_in) : add(in.s, in.r, in.carry_in);
+    sum = in.divide_sign ? add(in.s, ~in.r, true) : add(in.s, in.r, false);
     out.divide_sign = bit(in.r, 31) == bit(sum.f, 31);
     out.q = in.q << 1 | out.divide_sign;
   };
@@ -65,7 +65,7 @@ Output special(unsigned code, const Input& in) {
       out.y = sum.f;
       break;
     case 0x5:
-      sum = add(bit(in.s, 31) ? ~in.s : in.s, 0, in.carry_in);
+      sum = bit(in.s, 31) ? add(~in.s, 0, true) : add(in.s, 0, false);
       out.y = bit(in.s, 31) ? sum.f ^ 0x80000000u : sum.f;
       out.n = bit(out.y, 31);
       out.z = out.y == 0;
@@ -74,7 +74,7 @@ Output special(unsigned code, const Input& in) {
       flags_done = true;
       break;
     case 0x6:
-      sum = in.q & 1 ? add(in.s, ~in.r, in.carry_in) : add(in.s, 0, in.carry_in);
+      sum = in.q & 1 ? add(in.s, ~in.r, true) : add(in.s, 0, false);
       out.y = top(bit(sum.f, 31) != sum.v) | sum.f >> 1;
       out.q = top(sum.f & 1) | in.q >> 1;
       break;

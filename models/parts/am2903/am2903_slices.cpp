@@ -134,7 +134,7 @@ void destination(const SliceInputs& in, std::uint32_t f, SliceOutputs& out) {
 void multiply_step(const SliceInputs& in, bool is_signed, bool last, SliceOutputs& out) {
   const bool z = bit(in.q, 0);
   const std::uint32_t addend = !z ? 0 : last ? ~in.r : in.r;
-  const SliceSum sum = look_ahead_sum(in.s, addend, in.carry_in);
+  const SliceSum sum = look_ahead_sum(in.s, addend, last ? z : in.carry_in);
   out.f = sum.f;
   out.y = shifted_right(sum.f, is_signed ? bit(sum.f, 31) != sum.overflow : sum.carry);
   out.q = shifted_right(in.q, bit(sum.f, 0));
@@ -146,7 +146,7 @@ void multiply_step(const SliceInputs& in, bool is_signed, bool last, SliceOutput
 
 void sign_magnitude(const SliceInputs& in, SliceOutputs& out) {
   const bool z = bit(in.s, 31);
-  const SliceSum sum = look_ahead_sum(z ? ~in.s : in.s, 0, in.carry_in);
+  const SliceSum sum = look_ahead_sum(z ? ~in.s : in.s, 0, z);
   out.f = sum.f;
   out.y = with_bit31(sum.f, z != bit(sum.f, 31));
   out.c = sum.carry;
@@ -177,7 +177,7 @@ void double_normalise(const SliceInputs& in, SliceOutputs& out) {
 }
 
 void divide_step(const SliceInputs& in, bool correction, SliceOutputs& out) {
-  const SliceSum sum = look_ahead_sum(in.s, in.divide_sign ? ~in.r : in.r, in.carry_in);
+  const SliceSum sum = look_ahead_sum(in.s, in.divide_sign ? ~in.r : in.r, in.divide_sign);
   out.f = sum.f;
   out.y = correction ? sum.f : shifted_left(sum.f, bit(in.q, 31));
   out.divide_sign = bit(in.r, 31) == bit(sum.f, 31);

@@ -60,6 +60,14 @@ Decoded decode(std::uint64_t word) {
   d.touches_scratch = is_spad(d.dsrc, kDSpad) || is_spad(d.ydst, kYSpad);
   d.reads_time = tests_condition(d.seq) && told_by_time(d.cond);
   d.holds = d.reads_bus || d.starts_access || d.touches_scratch || d.reads_time;
+  const bool quiet = !d.starts_access && d.mul != kMulSigned && d.mul != kMulUnsigned && !d.halt;
+  if (quiet && d.plain_alu && d.seq == am2910::kCONT) {
+    d.kind = Decoded::kAlu;
+    d.alu = alu_handler(d);
+  } else if (quiet && d.seq == am2910::kCJP && d.dest == kYOnly && !d.latch && d.ydst == kYNone &&
+             d.dsrc != kDSpadArInc) {
+    d.kind = Decoded::kJump;
+  }
   return d;
 }
 

@@ -132,51 +132,75 @@ inline void clock_multiplier(ProcessorState& p, unsigned mul, int multiply_ticks
   }
 }
 
+inline std::uint32_t turned_d_bus(const ProcessorState& p, const Decoded& d) {
+  const std::uint32_t bus = d_bus(p, d);
+  return d.lane == 0 ? bus : base::rotate_right(bus, 8u * d.lane);
+}
+
+inline bool carry_in(const ProcessorState& p, const Decoded& d) {
+  return d.carry == kCarryZero ? false : d.carry == kCarryOne ? true : (d.carry == kCarryLatched) == p.c;
+}
+
+/// A plain ALU operation: RAM[B] or nothing, flags if latched. Returns Y.
+inline std::uint32_t execute_plain_alu(ProcessorState& p, const Decoded& d, std::uint32_t r, std::uint32_t s,
+                                       bool c0) {
+  const AluResult result = plain_alu(d.func, r, s, c0);
+  if (d.writes_ram) p.ram[d.b] = result.y;
+  if (d.latch) {
+    p.z = result.z;
+    p.n = result.n;
+    p.c = result.c;
+    p.v = result.v;
+  }
+  return result.y;
+}
+
+inline std::uint32_t execute_any_alu(ProcessorState& p, const Decoded& d, std::uint32_t r, std::uint32_t s,
+                                     bool c0) {
+  const am2903::Output result =
+      am2903::operate({d.dest, d.func, d.i0, d.fill}, {r, s, p.q, c0, p.c, p.divide_sign});
+  if (result.ram_written) p.ram[d.b] = result.y;
+  p.q = result.q;
+  p.divide_sign = result.divide_sign;
+  if (d.latch) {
+    p.z = result.z;
+    p.n = result.n;
+    p.c = result.c;
+    p.v = result.v;
+  }
+  return result.y;
+}
+
+/// Steps 1 to 4: D bus, ALU, Y bus. Returns Y.
+inline std::uint32_t execute_data(ProcessorState& p, const Decoded& d) {
+  const std::uint32_t bus = d.uses_d ? turned_d_bus(p, d) : 0;
+  const std::uint32_t r = d.ea ? bus : p.ram[d.a];
+  const std::uint32_t s = d.i0 ? p.q : d.oeb ? bus : p.ram[d.b];
+  const bool c0 = carry_in(p, d);
+  const std::uint32_t y = d.plain_alu ? execute_plain_alu(p, d, r, s, c0) : execute_any_alu(p, d, r, s, c0);
+  if (d.ydst != kYNone || d.dsrc == kDSpadArInc) write_y(p, d, y);
+  return y;
+}
+
 /// Executes one word: all of the data sheet's steps 1 to 8. Time is the caller's.
 template <class Port>
 inline void execute(ProcessorState& p, const Decoded& d, const ProcessorSpec& spec, Port& port) {
+  if (d.kind == Decoded::kAlu) {
+    execute_data(p, d);
+    if (p.product_in != 0) clock_multiplier(p, kMulNone, spec.multiply_ticks);
+    p.pc = (p.pc + 1) & am2910::kAddressMask;
+    return;
+  }
   const bool pass = d.seq == am2910::kCONT || condition(p, d.cond, port) != d.pol;
-
-  std::uint32_t bus = 0;
-  if (d.uses_d) {
-    bus = d_bus(p, d);
-    if (d.lane != 0) bus = base::rotate_right(bus, 8u * d.lane);
+  if (d.kind == Decoded::kJump) {
+    if (p.product_in != 0) clock_multiplier(p, kMulNone, spec.multiply_ticks);
+    p.pc = pass ? d.imm : (p.pc + 1) & am2910::kAddressMask;
+    return;
   }
-  const std::uint32_t r = d.ea ? bus : p.ram[d.a];
-  const std::uint32_t s = d.i0 ? p.q : d.oeb ? bus : p.ram[d.b];
-  const bool carry_in = d.carry == kCarryZero ? false : d.carry == kCarryOne ? true : (d.carry == kCarryLatched) == p.c;
-
-  std::uint32_t y;
-  if (__builtin_expect(d.plain_alu, 1)) {
-    const AluResult result = plain_alu(d.func, r, s, carry_in);
-    y = result.y;
-    if (d.writes_ram) p.ram[d.b] = y;
-    if (d.latch) {
-      p.z = result.z;
-      p.n = result.n;
-      p.c = result.c;
-      p.v = result.v;
-    }
-  } else {
-    const am2903::Output result =
-        am2903::operate({d.dest, d.func, d.i0, d.fill}, {r, s, p.q, carry_in, p.c, p.divide_sign});
-    y = result.y;
-    if (result.ram_written) p.ram[d.b] = y;
-    p.q = result.q;
-    p.divide_sign = result.divide_sign;
-    if (d.latch) {
-      p.z = result.z;
-      p.n = result.n;
-      p.c = result.c;
-      p.v = result.v;
-    }
-  }
-
-  if (d.ydst != kYNone || d.dsrc == kDSpadArInc) write_y(p, d, y);
+  const std::uint32_t y = execute_data(p, d);
   if ((d.mul | p.product_in) != 0) clock_multiplier(p, d.mul, spec.multiply_ticks);
   if (d.busop == kBusRead) port.start_read(p.bus_address, d.busfn);
   if (d.busop == kBusWrite) port.start_write(p.bus_address, p.write_data, d.busfn);
-
   if (d.seq == am2910::kCONT) {
     p.pc = (p.pc + 1) & am2910::kAddressMask;
   } else {

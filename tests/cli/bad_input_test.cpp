@@ -1,0 +1,174 @@
+#include <cmath>
+
+#include "tests/cli/cli.h"
+
+namespace dendro::cli {
+namespace {
+
+using BadInput = CommandTest;
+
+TEST_F(BadInput, MissingInclude) {
+  write("s.toml", "\ninclude = \"gone.toml\"\n");
+  expect_user_error("run s.toml", "s.toml:2: include: there is no file gone.toml: s.toml -> gone.toml");
+}
+
+TEST_F(BadInput, CyclicInclude) {
+  write("s.toml", "include = \"t.toml\"\n");
+  write("t.toml", "include = \"s.toml\"\n");
+  expect_user_error("run s.toml", "t.toml:1: include: the file includes itself: s.toml -> t.toml -> s.toml");
+}
+
+TEST_F(BadInput, CyclicIncludeOfAPreset) {
+  write("m.toml", "include = [\"n.toml\"]\n");
+  write("n.toml", "include = [\"m.toml\"]\n");
+  expect_user_error("run icosahedron --machine m.toml", "m.toml -> n.toml -> m.toml");
+  expect_user_error("machines m.toml", "m.toml -> n.toml -> m.toml");
+}
+
+TEST_F(BadInput, MeshWithNan) {
+  write("m.obj", "v 1 1 1\nv -1 nan 1\nv -1 1 -1\nv 1 -1 -1\nf 1 2 4\nf 1 3 2\nf 1 4 3\nf 2 3 4\n");
+  write("s.toml", scene_with("mesh = \"m.obj\"\n"));
+  expect_user_error("run s.toml", "m.obj");
+}
+
+TEST_F(BadInput, MeshWithoutArea) {
+  write("m.obj", "v 0 0 0\nv 1 1 1\nv 2 2 2\nv 3 3 3\nf 1 2 3\nf 2 3 4\n");
+  write("s.toml", scene_with("mesh = \"m.obj\"\n"));
+  expect_user_error("run s.toml", "m.obj");
+}
+
+TEST_F(BadInput, MeshWithoutFaces) {
+  write("m.obj", "v 0 0 0\nv 1 1 1\nv 2 2 2\n");
+  write("s.toml", scene_with("mesh = \"m.obj\"\n"));
+  expect_user_error("run s.toml", "m.obj");
+}
+
+TEST_F(BadInput, MissingMesh) {
+  write("s.toml", scene_with("mesh = \"gone.obj\"\n"));
+  expect_user_error("run s.toml", "gone.obj");
+}
+
+TEST_F(BadInput, TruncatedGz) {
+  write("m.obj", kTetrahedron);
+  ASSERT_EQ(0, std::system(("gzip '" + (folder_ / "m.obj").string() + "'").c_str()));
+  const std::string whole = read("m.obj.gz");
+  write("m.obj.gz", whole.substr(0, whole.size() - 12));
+  write("s.toml", scene_with("mesh = \"m.obj.gz\"\n"));
+  expect_user_error("run s.toml", "m.obj.gz");
+}
+
+TEST_F(BadInput, UnboundedPlanes) {
+  write("s.toml", scene_with("planes = [[1,0,0,1],[-1,0,0,1],[0,1,0,1],[0,-1,0,1],[0.1,0.1,1,1]]\n"));
+  expect_user_error("run s.toml", "unbounded");
+}
+
+TEST_F(BadInput, NoPlanes) {
+  write("s.toml", scene_with("planes = []\n"));
+  expect_user_error("run s.toml", "s.toml:11: object.0.planes");
+  write("m.obj", kTetrahedron);
+  write("s.toml", scene_with("mesh = \"m.obj\"\n", "[half_space]\nplanes = 0\n"));
+  expect_user_error("run s.toml", "planes");
+}
+
+/// Planes that touch a sphere at points of a spiral.
+std::string sphere_planes(int count) {
+  std::string text = "planes = [\n";
+  for (int i = 0; i < count; ++i) {
+    const double y = 1 - (2 * i + 1.0) / count, r = std::sqrt(1 - y * y), phi = i * 2.399963229728653;
+    text += "[" + std::to_string(r * std::cos(phi)) + "," + std::to_string(y) + "," +
+            std::to_string(r * std::sin(phi)) + ",1.0],\n";
+  }
+  return text + "]\n";
+}
+
+TEST_F(BadInput, MorePlanesThanTheScratchpadHolds) {
+  write("s.toml", scene_with(sphere_planes(2100)));
+  expect_user_error("run s.toml", "s.toml:");
+}
+
+TEST_F(BadInput, MoreFrontFacesThanNumbers) {
+  write("s.toml", scene_with(sphere_planes(700)));
+  expect_user_error("run s.toml", "255");
+}
+
+TEST_F(BadInput, APictureTheFrameBufferCannotHold) {
+  expect_user_error("run icosahedron --set image.width=1024", "512");
+  expect_user_error("run icosahedron --set image.width=0", "--set: image.width: 0 is impossible");
+}
+
+TEST_F(BadInput, AMicroprogramThatDoesNotFit) {
+  std::string source = "reg t = r0;\n";
+  for (int i = 0; i < 4097; ++i) source += "t = t + 1;\n";
+  write("big.gia", source);
+  expect_user_error("asm rds3000 big.gia -o big.ucode", "4096");
+  expect_user_error("exec rds3000 big.gia", "4096");
+}
+
+TEST_F(BadInput, EndlessMicrocodeNamesItsLoop) {
+  write("endless.gia", "reg t = r0;\nentry start;\nstart:\n  t = t + 1;\nagain:\n  goto again;\n");
+  for (const char* level : {"function", "cycle", "clocked"})
+    expect_user_error(std::string("exec rds3000 endless.gia --limit 100000 --level ") + level, "001");
+}
+
+TEST_F(BadInput, AnUnwritableRunDirectory) {
+  write("file", "");
+  expect_user_error("run icosahedron --out file/below", "cannot write");
+  expect_user_error("run icosahedron --out file", "it is a file");
+  expect_user_error("run icosahedron --json no/such/folder.json --out run", "no/such/folder.json");
+}
+
+TEST_F(BadInput, WhatIsWrongInTheMiddleLeavesNoDirectory) {
+  expect_user_error("run icosahedron --limit 1000 --out a/b/c", "");
+  expect_user_error("run icosahedron --set half_space.boxin=false --out a/b/c", "boxing");
+}
+
+TEST_F(BadInput, UnknownKeysNameTheNearest) {
+  expect_user_error("run icosahedron --set parameters.processor.tick_n=3", "did you mean `processor.tick_ns`?");
+  expect_user_error("run icosahedron --set imge.width=3", "did you mean `image`?");
+  expect_user_error("run icosaedron", "did you mean `icosahedron`?");
+  expect_user_error("run icosahedron --machine rds300", "rds3000");
+  expect_user_error("run icosahedron --machine rds3000:fg87", "fg86");
+  expect_user_error("run icosahedron --level estimate", "known are function, cycle, clocked");
+}
+
+TEST_F(BadInput, ImpossibleParameters) {
+  expect_user_error("run icosahedron --set parameters.processor.scratch_words=100", "processor.scratch_words");
+  expect_user_error("run icosahedron --set parameters.processor.multiply_ticks=1000", "processor.multiply_ticks");
+  expect_user_error("run icosahedron --set parameters.frame_memory.bits_per_pixel=25", "must be 24, 32 or 48");
+  expect_user_error("run icosahedron --set parameters.microcode.pack=half", "\"none\", \"full\"");
+  expect_user_error("exec rds3000 nothing.ucode --set processor.tick_ns=fast", "processor.tick_ns");
+}
+
+TEST_F(BadInput, BadToml) {
+  write("s.toml", "algorithm = \"half_space\"\n[image\n");
+  expect_user_error("run s.toml", "s.toml:2: not valid TOML");
+}
+
+TEST_F(BadInput, BadUcode) {
+  write("p.gia", "entry s;\ns:\n  halt;\n");
+  ASSERT_EQ(0, dendro("asm rds3000 p.gia -o p.ucode").status);
+  const std::string good = read("p.ucode");
+  write("p.ucode", good.substr(0, good.size() / 2));
+  expect_user_error("exec rds3000 p.ucode", "p.ucode");
+  std::string changed = good;
+  changed[changed.find("0000") + 1] = '1';
+  write("p.ucode", changed);
+  expect_user_error("disasm rds3000 p.ucode", "p.ucode");
+}
+
+TEST_F(BadInput, CommandLines) {
+  expect_user_error("", "a command is missing");
+  expect_user_error("draw", "draw: there is no such command");
+  expect_user_error("run", "scene is required");
+  expect_user_error("run icosahedron --frob", "--frob");
+  expect_user_error("run icosahedron --limit -3", "--limit");
+  expect_user_error("run icosahedron --set image.width", "the form is key=value");
+  expect_user_error("table FG87", "known are all, FG86");
+  expect_user_error("run icosahedron --interval --level function", "--interval");
+  expect_user_error("run icosahedron --vcd x.vcd", "clocked");
+  expect_user_error("exec rds3000 gone.ucode", "gone.ucode: cannot read the file");
+  expect_user_error("asm pixel-planes gone.gia -o x", "rds3000");
+}
+
+}  // namespace
+}  // namespace dendro::cli

@@ -1,0 +1,143 @@
+#include <sstream>
+
+#include "tests/cli/cli.h"
+
+namespace dendro::cli {
+namespace {
+
+using nlohmann::json;
+using Commands = CommandTest;
+
+const char* const kProgram =
+    "// Adds up 1 to 10.\nreg n = r0;\nreg sum = r1;\nscratch result[4] @ 0;\nentry start;\nstart:\n  n = 10;\n"
+    "  sum = 0;\nagain:\n  sum = sum + n;\n  n = n - 1 -> flags;\n  if (!zero) goto again;\n  result[0] = sum;\n  halt;\n";
+
+TEST_F(Commands, ListsNameWhatThereIs) {
+  for (const char* name : {"icosahedron", "aspen-hull", "bishop-hull"})
+    EXPECT_NE(std::string::npos, dendro("scenes").out.find(name)) << name;
+  EXPECT_NE(std::string::npos, dendro("machines").out.find("rds3000:big-store"));
+  const std::string firmware = dendro("firmware").out;
+  EXPECT_NE(std::string::npos, firmware.find("pack none"));
+  EXPECT_NE(std::string::npos, firmware.find("pack full"));
+}
+
+TEST_F(Commands, MachinesPrintsEveryParameterWithValueRangeUnitAndSource) {
+  const Result result = dendro("machines rds3000:fg86");
+  ASSERT_EQ(0, result.status) << result.err;
+  std::istringstream lines(result.out);
+  bool found = false;
+  for (std::string line; std::getline(lines, line);) {
+    if (line.find("frame_memory.read_ticks ") != 0) continue;
+    found = true;
+    EXPECT_NE(std::string::npos, line.find(" 4 "));
+    EXPECT_NE(std::string::npos, line.find("3 to 6"));
+    EXPECT_NE(std::string::npos, line.find("ticks  "));
+    EXPECT_NE(std::string::npos, line.find("ASSUMED DEV-003"));
+  }
+  EXPECT_TRUE(found) << result.out;
+}
+
+TEST_F(Commands, ExecRunsAProgramAtEveryLevel) {
+  write("p.gia", kProgram);
+  ASSERT_EQ(0, dendro("asm rds3000 p.gia -o p.ucode").status);
+  for (const char* level : {"function", "cycle", "clocked"}) {
+    const Result result = dendro(std::string("exec rds3000 p.ucode --dump 0:2 --json o.json --level ") + level);
+    ASSERT_EQ(0, result.status) << result.err;
+    EXPECT_EQ("", result.err);
+    EXPECT_NE(std::string::npos, result.out.find("scratch[0] = 0x00000037\nscratch[1] = 0x00000000\n")) << result.out;
+    const json o = json::parse(read("o.json"));
+    for (const char* key : {"schema", "command", "machine", "preset", "level", "cycles", "instructions", "clock_hz",
+                            "seconds", "exit_code", "units", "host"})
+      EXPECT_TRUE(o.contains(key)) << key;
+    EXPECT_EQ(55, o["exit_code"]);
+    EXPECT_EQ(level, o["level"]);
+  }
+}
+
+TEST_F(Commands, DisassemblyAssemblesToTheSameProgram) {
+  write("p.gia", kProgram);
+  for (const char* pack : {"none", "full"}) {
+    ASSERT_EQ(0, dendro(std::string("asm rds3000 p.gia -o p.ucode --listing p.lst --pack ") + pack).status);
+    EXPECT_FALSE(read("p.lst").empty());
+    ASSERT_EQ(0, dendro("disasm rds3000 p.ucode -o q.gia").status);
+    EXPECT_EQ(read("q.gia"), dendro("disasm rds3000 p.ucode").out);
+    ASSERT_EQ(0, dendro("exec rds3000 q.gia --json o.json").status) << read("q.gia");
+    EXPECT_EQ(55, json::parse(read("o.json"))["exit_code"]);
+  }
+}
+
+TEST_F(Commands, LevelsComparesEveryLevelWithClocked) {
+  write("s.toml", scene_with("solid = \"icosahedron\"\n"));
+  const Result result = dendro("levels s.toml --json o.json");
+  ASSERT_EQ(0, result.status) << result.err;
+  EXPECT_EQ("", result.err);
+  const json rows = json::parse(read("o.json"))["rows"];
+  ASSERT_EQ(4u, rows.size());
+  std::int64_t cycles = 0;
+  for (const json& row : rows) {
+    for (const char* key : {"level", "host_seconds", "cycles", "cycle_error", "interval", "image_psnr_db",
+                            "different_pixels", "speedup_over_clocked", "skipped"})
+      EXPECT_TRUE(row.contains(key)) << key;
+    if (!row["skipped"].is_null()) continue;
+    EXPECT_EQ(0, row["different_pixels"]) << row["level"];
+    EXPECT_EQ(0.0, row["cycle_error"]) << row["level"];
+    if (row["level"] == "cycle") cycles = row["cycles"].get<std::int64_t>();
+    if (row["level"] == "clocked") {
+      EXPECT_EQ(cycles, row["cycles"]);
+    }
+  }
+  EXPECT_LT(0, cycles);
+}
+
+TEST_F(Commands, LevelsKeepsItsBudget) {
+  write("s.toml", scene_with("solid = \"icosahedron\"\n"));
+  ASSERT_EQ(0, dendro("levels s.toml --budget 0.000001 --json o.json").status);
+  const json rows = json::parse(read("o.json"))["rows"];
+  EXPECT_TRUE(rows.back()["skipped"].is_string());
+  EXPECT_TRUE(rows.back()["cycles"].is_null());
+}
+
+TEST_F(Commands, BenchMeasuresTheLevelAskedFor) {
+  ASSERT_EQ(0, dendro("bench --level function --repeats 1 --json o.json").status);
+  const json rows = json::parse(read("o.json"))["rows"];
+  ASSERT_EQ(1u, rows.size());
+  for (const char* key : {"machine", "level", "work", "simulated_hz", "real_time_factor"})
+    EXPECT_TRUE(rows[0].contains(key)) << key;
+  EXPECT_LT(0.0, rows[0]["simulated_hz"]);
+}
+
+// On a picture of 64x64 pixels the times mean nothing, but the rows, the cache and the exit statuses are the same.
+TEST_F(Commands, TableHasItsRowsAndATolerance) {
+  const std::string small = "table FG86 --set image.width=64 --set image.height=64 --json o.json";
+  const Result result = dendro(small);
+  ASSERT_EQ(0, result.status) << result.err;
+  EXPECT_EQ("", result.err);
+  EXPECT_EQ(0u, result.out.find("plan:\n"));
+  const json rows = json::parse(read("o.json"))["rows"];
+  std::vector<std::string> ids;
+  for (const json& row : rows) {
+    ids.push_back(row["id"]);
+    for (const char* key : {"id", "paper", "what", "unit", "published", "simulated", "low", "high", "ratio", "inside",
+                            "assumptions", "reading", "note"})
+      EXPECT_TRUE(row.contains(key)) << key;
+    EXPECT_LE(row["low"], row["simulated"]) << row["id"];
+    EXPECT_GE(row["high"], row["simulated"]) << row["id"];
+  }
+  EXPECT_EQ((std::vector<std::string>{"FG86-A3", "FG86-A7a", "FG86-A7b", "FG86-A7c", "FG86-A10", "FG86-A17"}), ids);
+  EXPECT_EQ(400.0, rows[0]["simulated"]);
+  EXPECT_EQ(1.0, rows[5]["simulated"]);
+
+  const std::string first = read("o.json");
+  EXPECT_EQ(3, dendro(small + " --tolerance 0.01").status) << "from the cache, and far outside";
+  EXPECT_EQ(first, read("o.json"));
+  EXPECT_EQ(0, dendro(small + " --tolerance 1000").status);
+}
+
+TEST_F(Commands, HelpIsNoError) {
+  EXPECT_EQ(0, dendro("--help").status);
+  EXPECT_EQ(0, dendro("run --help").status);
+  EXPECT_EQ("dendro 0.1.0\n", dendro("--version").out);
+}
+
+}  // namespace
+}  // namespace dendro::cli
