@@ -15,7 +15,7 @@ namespace dendro {
 /// A machine after its run, as a debugger and the monitor show it: no time passes, nothing changes.
 struct MachineView {
   std::function<std::uint32_t(std::uint32_t address, unsigned function)> peek;
-  int width = 0;                      ///< of what the monitor shows
+  int width = 0;  ///< of what the monitor shows
   int height = 0;
   const std::uint8_t* rgb = nullptr;  ///< 8-bit RGB, rows top down, width * height * 3 bytes
 };
@@ -23,10 +23,10 @@ struct MachineView {
 /// The simulated picture against the algorithm's double-precision reference.
 struct ErrorReport {
   std::string reference = "double";
-  std::optional<double> psnr_db;     ///< none: the pictures are identical
-  double max_depth_error = 0;        ///< units of the depth register
-  std::int64_t wrong_pixels = 0;     ///< covered in one but not in the other, or another face
-  std::int64_t covered_pixels = 0;   ///< in the reference
+  std::optional<double> psnr_db;    ///< none: the pictures are identical
+  double max_depth_error = 0;       ///< units of the depth register
+  std::int64_t wrong_pixels = 0;    ///< covered in one but not in the other, or another face
+  std::int64_t covered_pixels = 0;  ///< in the reference
   std::vector<std::pair<std::string, double>> extra;  ///< further figures of the algorithm, by name
 };
 
@@ -44,8 +44,9 @@ struct FirmwareImage {
   std::map<std::string, std::uint32_t> symbols;  ///< control-store addresses by label
 };
 
-/// One scene prepared for one algorithm on one machine: what the host program does and how good the result is.
-/// The constructor of an implementation checks the scene and throws UserError; after that nothing is the user's fault.
+/// One scene prepared for one algorithm on one machine: what the host program does and how good the result
+/// is. The constructor of an implementation checks the scene and throws UserError; after that nothing is the
+/// user's fault.
 class Job {
  public:
   virtual ~Job() = default;
@@ -59,13 +60,14 @@ class Job {
   /// Channels of image.exr: at least R, G, B and Z; size is that of the scene's picture.
   virtual std::vector<Layer> layers(const MachineView& machine) const = 0;
 
-  /// Absolute paths of the files that were read for this job, meshes and their parts, sorted; the scene file is not
-  /// among them.
+  /// Absolute paths of the files that were read for this job, meshes and their parts, sorted; the scene file
+  /// is not among them.
   virtual std::vector<std::string> input_files() const = 0;
 
   virtual std::vector<FirmwareImage> firmware() const = 0;
 
-  /// Facts of the prepared scene that tables need, by name: "planes.front", "planes.back", "planes.edge_on", ...
+  /// Facts of the prepared scene that tables need, by name: "planes.front", "planes.back", "planes.edge_on",
+  /// ...
   virtual std::vector<std::pair<std::string, double>> facts() const = 0;
 };
 

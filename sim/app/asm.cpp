@@ -50,8 +50,10 @@ void add_asm(CLI::App& app, const study::Catalogue& catalogue, Action& action) {
   assembler->add_option("-o,--out", o->out, ".ucode file; - is standard output")->required();
   assembler->add_option("--pack", o->assemble.pack, "none: a line is a word; full: words are merged")
       ->check(CLI::IsMember({"none", "full"}));
-  assembler->add_option("--multiply-ticks", o->assemble.multiply_ticks, "latency of the multiplier")->check(CLI::Range(1, 64));
-  assembler->add_option("--listing", o->listing, "listing with addresses, words and ticks; - is standard output");
+  assembler->add_option("--multiply-ticks", o->assemble.multiply_ticks, "latency of the multiplier")
+      ->check(CLI::Range(1, 64));
+  assembler->add_option("--listing", o->listing,
+                        "listing with addresses, words and ticks; - is standard output");
   assembler->callback([&, o] {
     action = [&catalogue, o] {
       check_machine(o->machine, catalogue);

@@ -34,8 +34,10 @@ void add_bench(CLI::App& app, const study::Catalogue& catalogue, Action& action)
   command->add_option("--set", o->settings, "key=value of the scene that is run")->allow_extra_args(false);
   command->add_option("--repeats", o->repeats, "runs, of which the best counts")->check(CLI::Range(1, 1000));
   command->add_option("--json", o->json, "also write the rows here; - is standard output");
-  command->add_option("--progress", o->progress, "auto, on or off")->check(CLI::IsMember({"auto", "on", "off"}));
-  command->callback([&catalogue, &action, o] { action = [&catalogue, o] { return measure(catalogue, *o); }; });
+  command->add_option("--progress", o->progress, "auto, on or off")
+      ->check(CLI::IsMember({"auto", "on", "off"}));
+  command->callback(
+      [&catalogue, &action, o] { action = [&catalogue, o] { return measure(catalogue, *o); }; });
 }
 
 }  // namespace dendro::app

@@ -9,8 +9,8 @@ namespace CLI {
 class App;
 }
 
-/// The subcommands of `dendro`, one file each. `add_*` declares a subcommand's options and leaves in `action` what to
-/// do when it was chosen; that returns the exit status.
+/// The subcommands of `dendro`, one file each. `add_*` declares a subcommand's options and leaves in `action`
+/// what to do when it was chosen; that returns the exit status.
 namespace dendro::app {
 
 constexpr int kGood = 0;

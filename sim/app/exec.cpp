@@ -1,7 +1,8 @@
 #include "sim/study/exec.h"
 
-#include <CLI/CLI.hpp>
 #include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
 #include <cstdio>
 #include <memory>
 
@@ -34,7 +35,8 @@ std::uint32_t number(const std::string& text, const std::string& whole) {
 
 int execute(const study::Catalogue& catalogue, Options options) {
   if (!options.arguments.empty())
-    throw UserError("", 0, options.arguments.front(), "a microprogram takes no arguments; give it data in its scratch areas");
+    throw UserError("", 0, options.arguments.front(),
+                    "a microprogram takes no arguments; give it data in its scratch areas");
   for (const std::string& dump : options.dumps) {
     const auto colon = dump.find(':');
     const std::string count = colon == std::string::npos ? "1" : dump.substr(colon + 1);
@@ -49,9 +51,10 @@ int execute(const study::Catalogue& catalogue, Options options) {
       fmt::print("scratch[{}] = 0x{:08x}\n", options.exec.dumps[i].first + n, output.dumps[i][n]);
   const stats::RunObject& run = output.object;
   if (!options.quiet && options.json != "-")
-    fmt::print("{}:{} level {}: {} microinstructions, {} cycles{}, exit code {}\n", run.machine, run.preset, run.level,
-               stats::grouped(static_cast<std::int64_t>(run.instructions)), stats::grouped(run.cycles),
-               run.cycles > 0 ? " = " + stats::readable_seconds(run.seconds) : "", output.exit_code);
+    fmt::print("{}:{} level {}: {} microinstructions, {} cycles{}, exit code {}\n", run.machine, run.preset,
+               run.level, stats::grouped(static_cast<std::int64_t>(run.instructions)),
+               stats::grouped(run.cycles), run.cycles > 0 ? " = " + stats::readable_seconds(run.seconds) : "",
+               output.exit_code);
   json.commit(study::exec_json(output));
   return kGood;
 }
@@ -67,15 +70,19 @@ void add_exec(CLI::App& app, const study::Catalogue& catalogue, Action& action) 
   command->add_option("args", o->arguments, "arguments of the program, after --");
   command->add_option("--level", o->exec.level, "function, cycle or clocked");
   command->add_option("--set", o->exec.settings, "key=value of the machine")->allow_extra_args(false);
-  command->add_option("--limit", machine.tick_limit, "ticks the processor may run")->check(CLI::PositiveNumber);
+  command->add_option("--limit", machine.tick_limit, "ticks the processor may run")
+      ->check(CLI::PositiveNumber);
   command->add_option("--dump", o->dumps, "ADDRESS:COUNT scratch words to print")->allow_extra_args(false);
   command->add_option("--json", o->json, "also write the result here; - is standard output");
-  command->add_option("--progress", o->progress, "auto, on or off")->check(CLI::IsMember({"auto", "on", "off"}));
+  command->add_option("--progress", o->progress, "auto, on or off")
+      ->check(CLI::IsMember({"auto", "on", "off"}));
   command->add_flag("--quiet", o->quiet, "print no summary");
   command->add_option("--vcd", machine.vcd_file, "waveform file, at --level clocked");
-  command->add_option("--vcd-from", machine.vcd_from, "first tick of the waveform")->check(CLI::NonNegativeNumber);
+  command->add_option("--vcd-from", machine.vcd_from, "first tick of the waveform")
+      ->check(CLI::NonNegativeNumber);
   command->add_option("--vcd-to", machine.vcd_to, "last tick of the waveform")->check(CLI::NonNegativeNumber);
-  command->callback([&catalogue, &action, o] { action = [&catalogue, o] { return execute(catalogue, *o); }; });
+  command->callback(
+      [&catalogue, &action, o] { action = [&catalogue, o] { return execute(catalogue, *o); }; });
 }
 
 }  // namespace dendro::app

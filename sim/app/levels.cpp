@@ -33,10 +33,13 @@ void add_levels(CLI::App& app, const study::Catalogue& catalogue, Action& action
   command->add_option("scene", o->run.scene, "built-in scene or scene file")->required();
   command->add_option("--machine", o->run.machine, "NAME[:PRESET] or FILE.toml; default: the scene's");
   command->add_option("--set", o->run.settings, "key=value of the scene")->allow_extra_args(false);
-  command->add_option("--budget", o->budget, "host seconds; levels beyond it are skipped")->check(CLI::PositiveNumber);
+  command->add_option("--budget", o->budget, "host seconds; levels beyond it are skipped")
+      ->check(CLI::PositiveNumber);
   command->add_option("--json", o->json, "also write the rows here; - is standard output");
-  command->add_option("--progress", o->progress, "auto, on or off")->check(CLI::IsMember({"auto", "on", "off"}));
-  command->callback([&catalogue, &action, o] { action = [&catalogue, o] { return compare(catalogue, *o); }; });
+  command->add_option("--progress", o->progress, "auto, on or off")
+      ->check(CLI::IsMember({"auto", "on", "off"}));
+  command->callback(
+      [&catalogue, &action, o] { action = [&catalogue, o] { return compare(catalogue, *o); }; });
 }
 
 }  // namespace dendro::app

@@ -1,5 +1,6 @@
-#include <CLI/CLI.hpp>
 #include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
 #include <cstdio>
 #include <memory>
 
@@ -13,9 +14,10 @@ namespace {
 /// The unit that a parameter's name ends in.
 std::string unit_of(const std::string& key) {
   static const std::pair<const char*, const char*> kUnits[] = {
-      {"_ticks", "ticks"}, {"_ns", "ns"},       {"_us", "us"},       {"_ms", "ms"},          {"_mb_s", "MB/s"},
-      {"_m_s", "million/s"}, {"_hz", "Hz"},     {"_bytes", "bytes"}, {"_bits", "bits"},      {"_words", "words"},
-      {"_entries", "entries"}, {"bits_per_pixel", "bits"}, {"_s", "s"}};
+      {"_ticks", "ticks"}, {"_ns", "ns"},         {"_us", "us"},           {"_ms", "ms"},
+      {"_mb_s", "MB/s"},   {"_m_s", "million/s"}, {"_hz", "Hz"},           {"_bytes", "bytes"},
+      {"_bits", "bits"},   {"_words", "words"},   {"_entries", "entries"}, {"bits_per_pixel", "bits"},
+      {"_s", "s"}};
   for (const auto& [suffix, unit] : kUnits) {
     const std::string end = suffix;
     if (key.size() >= end.size() && key.compare(key.size() - end.size(), end.size(), end) == 0) return unit;
@@ -27,9 +29,11 @@ std::string range_of(const config::Parameter& p) {
   if (!p.spread) return p.follows.empty() ? "" : "as " + p.follows;
   std::string text;
   if (p.spread->low) {
-    text = fmt::format("{:g} to {:g}{}", *p.spread->low, *p.spread->high, p.spread->logarithmic ? " (log)" : "");
+    text =
+        fmt::format("{:g} to {:g}{}", *p.spread->low, *p.spread->high, p.spread->logarithmic ? " (log)" : "");
   } else {
-    for (const config::Value& choice : p.spread->choices) text += (text.empty() ? "" : " | ") + config::to_text(choice);
+    for (const config::Value& choice : p.spread->choices)
+      text += (text.empty() ? "" : " | ") + config::to_text(choice);
   }
   return p.follows.empty() ? text : text + ", as " + p.follows;
 }
@@ -43,7 +47,8 @@ int list_scenes(const study::Catalogue& catalogue) {
 int list_machines(const study::Catalogue& catalogue) {
   for (const MachineType& machine : catalogue.machines) {
     std::string levels;
-    for (const Level level : machine.levels) levels += (levels.empty() ? "" : ", ") + std::string(level_name(level));
+    for (const Level level : machine.levels)
+      levels += (levels.empty() ? "" : ", ") + std::string(level_name(level));
     fmt::print("{}  {}\n  levels: {}\n", machine.name, machine.summary, levels);
     for (const std::string& preset : machine.presets) {
       const auto loaded = config::load_preset(machine.name + ":" + preset, catalogue.presets(), {});
@@ -58,15 +63,15 @@ int print_machine(const study::Catalogue& catalogue, const std::string& name) {
   fmt::print("{}:{}  {}\n", preset.machine, preset.name, preset.description);
   fmt::print("{:<38} {:>12}  {:<34} {:<10} {}\n", "parameter", "value", "range", "unit", "source");
   for (const config::Parameter& p : preset.parameters.all())
-    fmt::print("{:<38} {:>12}  {:<34} {:<10} {}\n", p.key, config::to_text(p.value), range_of(p), unit_of(p.key),
-               p.source);
+    fmt::print("{:<38} {:>12}  {:<34} {:<10} {}\n", p.key, config::to_text(p.value), range_of(p),
+               unit_of(p.key), p.source);
   return kGood;
 }
 
 int list_firmware() {
   for (const study::Firmware& firmware : study::firmware_list())
-    fmt::print("{:<14} {:<10} pack {:<5} {:>5} words  {}  {}\n", firmware.name, firmware.machine, firmware.pack,
-               firmware.words, firmware.sha256.substr(0, 16), firmware.path);
+    fmt::print("{:<14} {:<10} pack {:<5} {:>5} words  {}  {}\n", firmware.name, firmware.machine,
+               firmware.pack, firmware.words, firmware.sha256.substr(0, 16), firmware.path);
   return kGood;
 }
 
@@ -80,10 +85,13 @@ void add_lists(CLI::App& app, const study::Catalogue& catalogue, Action& action)
     action = list_firmware;
   });
   const auto name = std::make_shared<std::string>();
-  CLI::App* machines = app.add_subcommand("machines", "list the machines, or one preset's parameters with their sources");
+  CLI::App* machines =
+      app.add_subcommand("machines", "list the machines, or one preset's parameters with their sources");
   machines->add_option("name", *name, "NAME[:PRESET] or FILE.toml");
   machines->callback([&, name] {
-    action = [&catalogue, name] { return name->empty() ? list_machines(catalogue) : print_machine(catalogue, *name); };
+    action = [&catalogue, name] {
+      return name->empty() ? list_machines(catalogue) : print_machine(catalogue, *name);
+    };
   });
 }
 

@@ -12,7 +12,9 @@
 namespace {
 
 // SystemC prints its banner when its first object is made; nothing of ours may come before this.
-__attribute__((constructor(101))) void silence_systemc() { ::setenv("SYSTEMC_DISABLE_COPYRIGHT_MESSAGE", "1", 1); }
+__attribute__((constructor(101))) void silence_systemc() {
+  ::setenv("SYSTEMC_DISABLE_COPYRIGHT_MESSAGE", "1", 1);
+}
 
 std::string one_line(std::string text) {
   while (!text.empty() && text.back() == '\n') text.pop_back();
@@ -52,8 +54,10 @@ std::string names_of(const CLI::App& app) {
 std::string complaint(const CLI::App& app, const CLI::ParseError& error, int argc, char** argv) {
   const std::string first = argc > 1 ? argv[1] : "";
   if (app.get_subcommands().empty() && (first.empty() || first[0] != '-'))
-    return (first.empty() ? "a command is missing" : first + ": there is no such command") + ": known are " + names_of(app);
-  const std::string command = app.get_subcommands().empty() ? "" : " " + app.get_subcommands().front()->get_name();
+    return (first.empty() ? "a command is missing" : first + ": there is no such command") + ": known are " +
+           names_of(app);
+  const std::string command =
+      app.get_subcommands().empty() ? "" : " " + app.get_subcommands().front()->get_name();
   return std::string(error.what()) + " (dendro" + command + " --help says what is allowed)";
 }
 
@@ -63,8 +67,10 @@ int main(int argc, char** argv) {
   using namespace dendro;
   study::catch_interrupts();
   const study::Catalogue catalogue = {app::machines(), study::algorithms(), study::share_folder()};
-  CLI::App command{"dendro: a cycle-level simulator of the graphics machines on which computer-graphics trees were first drawn",
-               "dendro"};
+  CLI::App command{
+      "dendro: a cycle-level simulator of the graphics machines on which computer-graphics trees were first "
+      "drawn",
+      "dendro"};
   command.require_subcommand(1);
   command.set_version_flag("--version", "dendro 0.1.0");
   app::Action action;

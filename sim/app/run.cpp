@@ -35,10 +35,13 @@ std::vector<std::string> split_units(const std::string& list) {
   return units;
 }
 
-void add_interval(const study::RunRequest& request, int jobs, study::Progress& progress, stats::RunObject& object) {
-  const std::vector<study::Metric> metrics = {{"seconds", [](const stats::RunObject& run) { return run.seconds; }}};
+void add_interval(const study::RunRequest& request, int jobs, study::Progress& progress,
+                  stats::RunObject& object) {
+  const std::vector<study::Metric> metrics = {
+      {"seconds", [](const stats::RunObject& run) { return run.seconds; }}};
   const auto interval =
-      study::propagate(request, object, metrics, study::worker_runs(jobs, &progress, request.file.scene.name)).front();
+      study::propagate(request, object, metrics, study::worker_runs(jobs, &progress, request.file.scene.name))
+          .front();
   object.seconds_low = interval.low;
   object.seconds_high = interval.high;
   object.contributions = interval.contributions;
@@ -78,19 +81,24 @@ void add_run(CLI::App& app, const study::Catalogue& catalogue, Action& action) {
   MachineOptions& machine = o->run.options;
   command->add_option("scene", o->run.scene, "built-in scene or scene file")->required();
   command->add_option("--machine", o->run.machine, "NAME[:PRESET] or FILE.toml; default: the scene's");
-  command->add_option("--level", o->run.level, "function, estimate, cycle or clocked; default: the scene's, else cycle");
-  command->add_option("--set", o->run.settings, "key=value of the scene; parameters.* are the machine's")->allow_extra_args(false);
+  command->add_option("--level", o->run.level,
+                      "function, estimate, cycle or clocked; default: the scene's, else cycle");
+  command->add_option("--set", o->run.settings, "key=value of the scene; parameters.* are the machine's")
+      ->allow_extra_args(false);
   command->add_option("--seed", o->run.seed, "of everything random");
   command->add_flag("--interval", o->interval, "propagate the ranges of all assumptions");
   command->add_option("--out", o->out, "run directory; default: out/SCENE");
   command->add_option("--json", o->json, "also write the run object here; - is standard output");
-  command->add_option("--progress", o->progress, "auto, on or off")->check(CLI::IsMember({"auto", "on", "off"}));
+  command->add_option("--progress", o->progress, "auto, on or off")
+      ->check(CLI::IsMember({"auto", "on", "off"}));
   command->add_flag("--quiet", o->quiet, "print nothing");
   command->add_option("--jobs", o->jobs, "worker processes of --interval")->check(CLI::Range(1, 1024));
-  command->add_option("--limit", machine.tick_limit, "ticks the processor may run in one start")->check(CLI::PositiveNumber);
+  command->add_option("--limit", machine.tick_limit, "ticks the processor may run in one start")
+      ->check(CLI::PositiveNumber);
   command->add_flag("--all-units", machine.all_units, "elaborate units that the scene does not use, too");
   command->add_option("--vcd", machine.vcd_file, "waveform file, at --level clocked");
-  command->add_option("--vcd-from", machine.vcd_from, "first tick of the waveform")->check(CLI::NonNegativeNumber);
+  command->add_option("--vcd-from", machine.vcd_from, "first tick of the waveform")
+      ->check(CLI::NonNegativeNumber);
   command->add_option("--vcd-to", machine.vcd_to, "last tick of the waveform")->check(CLI::NonNegativeNumber);
   command->add_option("--vcd-units", o->vcd_units, "units in the waveform, separated by commas");
   command->callback([&catalogue, &action, o] { action = [&catalogue, o] { return run(catalogue, *o); }; });

@@ -1,6 +1,8 @@
-#include <CLI/CLI.hpp>
+#include "sim/study/table.h"
+
 #include <fmt/format.h>
 
+#include <CLI/CLI.hpp>
 #include <cmath>
 #include <cstdio>
 #include <memory>
@@ -8,7 +10,6 @@
 
 #include "sim/app/commands.h"
 #include "sim/study/run_folder.h"
-#include "sim/study/table.h"
 
 namespace dendro::app {
 namespace {
@@ -57,7 +58,8 @@ void add_table(CLI::App& app, const study::Catalogue& catalogue, Action& action)
   command->add_option("--tolerance", o->tolerance, "exit 3 when a ratio is further than this from 1")
       ->check(CLI::NonNegativeNumber);
   command->add_option("--json", o->json, "also write the rows here; - is standard output");
-  command->add_option("--progress", o->progress, "auto, on or off")->check(CLI::IsMember({"auto", "on", "off"}));
+  command->add_option("--progress", o->progress, "auto, on or off")
+      ->check(CLI::IsMember({"auto", "on", "off"}));
   command->callback([&catalogue, &action, o] { action = [&catalogue, o] { return make(catalogue, *o); }; });
 }
 

@@ -1,6 +1,7 @@
 #include "sim/config/document.h"
 
 #include <fmt/format.h>
+#include <toml++/toml.h>
 
 #include <algorithm>
 #include <cctype>
@@ -8,7 +9,6 @@
 #include <fstream>
 #include <iterator>
 #include <sstream>
-#include <toml++/toml.h>
 
 #include "sim/base/embedded.h"
 #include "sim/base/error.h"
@@ -81,7 +81,8 @@ std::vector<std::pair<std::string, Where>> take_includes(Node& document) {
   const std::vector<Node> items = line->kind == Node::Kind::kArray ? line->items : std::vector<Node>{*line};
   for (const Node& item : items) {
     if (item.kind != Node::Kind::kValue || !std::holds_alternative<std::string>(item.value))
-      throw UserError(item.where.file, item.where.line, "include", "a file name or a list of them is expected");
+      throw UserError(item.where.file, item.where.line, "include",
+                      "a file name or a list of them is expected");
     includes.emplace_back(std::get<std::string>(item.value), item.where);
   }
   document.erase("include");
@@ -123,8 +124,9 @@ bool is_index(const std::string& part) {
 Node* step_into(Node& node, const std::string& part, const std::string& path) {
   if (node.kind == Node::Kind::kArray) {
     if (!is_index(part) || std::stoul(part) >= node.items.size())
-      throw UserError("--set", 0, path,
-                      fmt::format("`{}` addresses a list of {} items, numbered from 0", part, node.items.size()));
+      throw UserError(
+          "--set", 0, path,
+          fmt::format("`{}` addresses a list of {} items, numbered from 0", part, node.items.size()));
     return &node.items[std::stoul(part)];
   }
   if (node.kind != Node::Kind::kTable)
@@ -173,7 +175,8 @@ Node parse_toml(const std::string& text, const std::string& file) {
 std::string read_text(const DocumentName& name, const Where& where) {
   if (name.embedded) {
     const std::string* text = base::embedded_file(name.path);
-    if (text == nullptr) throw UserError(where.file, where.line, "", "there is no built-in file " + name.path);
+    if (text == nullptr)
+      throw UserError(where.file, where.line, "", "there is no built-in file " + name.path);
     return *text;
   }
   std::error_code error;
@@ -183,7 +186,8 @@ std::string read_text(const DocumentName& name, const Where& where) {
   return std::string(std::istreambuf_iterator<char>(in), {});
 }
 
-std::vector<Document> load_documents(const DocumentName& name, const IncludeFinder& find, const Where& where) {
+std::vector<Document> load_documents(const DocumentName& name, const IncludeFinder& find,
+                                     const Where& where) {
   Walk walk{find, {}, {}, {}};
   load(walk, name, where);
   return std::move(walk.documents);

@@ -14,9 +14,9 @@ namespace dendro::config {
 struct Node {
   enum class Kind { kValue, kArray, kTable };
   Kind kind = Kind::kTable;
-  Value value;                                       ///< kValue
-  std::vector<Node> items;                           ///< kArray
-  std::vector<std::pair<std::string, Node>> members; ///< kTable, in the order of the file
+  Value value;                                        ///< kValue
+  std::vector<Node> items;                            ///< kArray
+  std::vector<std::pair<std::string, Node>> members;  ///< kTable, in the order of the file
   bool inline_table = false;
   Where where;
 
@@ -47,8 +47,9 @@ std::string read_text(const DocumentName& name, const Where& where);
 /// including document.
 using IncludeFinder = std::function<std::optional<DocumentName>(const std::string& include)>;
 
-/// The document and all that it includes with `include = "x"` or `include = ["x", "y"]`, included ones first, each
-/// without its include line. Throws UserError for a file that is missing or includes itself, naming the chain.
+/// The document and all that it includes with `include = "x"` or `include = ["x", "y"]`, included ones first,
+/// each without its include line. Throws UserError for a file that is missing or includes itself, naming the
+/// chain.
 std::vector<Document> load_documents(const DocumentName& name, const IncludeFinder& find, const Where& where);
 
 /// Puts `over` on top of `under`: tables key by key, everything else as a whole.
@@ -60,8 +61,8 @@ Node parse_setting(const std::string& text);
 /// Splits "a.b=value" of a --set. Throws UserError when there is no key or no `=`.
 std::pair<std::string, std::string> split_setting(const std::string& text);
 
-/// Sets the value at a dotted path, making tables on the way; a number as a path part addresses an array's item.
-/// Throws UserError when the path leads through something that is no table.
+/// Sets the value at a dotted path, making tables on the way; a number as a path part addresses an array's
+/// item. Throws UserError when the path leads through something that is no table.
 void set_path(Node& root, const std::string& path, const Node& value);
 
 /// The node as TOML on one line: an inline table, an array or a value.

@@ -82,12 +82,13 @@ void ParameterSet::add(Parameter parameter) {
 }
 
 void ParameterSet::set(const std::string& key, const Value& value, const Where& where) {
-  const auto found = std::find_if(parameters_.begin(), parameters_.end(),
-                                  [&](const Parameter& p) { return p.key == key; });
+  const auto found =
+      std::find_if(parameters_.begin(), parameters_.end(), [&](const Parameter& p) { return p.key == key; });
   if (found == parameters_.end()) {
     std::vector<std::string> keys;
     for (const Parameter& p : parameters_) keys.push_back(p.key);
-    throw UserError(where.file, where.line, key, "the machine has no such parameter" + did_you_mean(key, keys));
+    throw UserError(where.file, where.line, key,
+                    "the machine has no such parameter" + did_you_mean(key, keys));
   }
   found->value = checked_value(*found, value, where);
   found->where = where;
@@ -110,7 +111,8 @@ std::set<std::string> ParameterSet::assumptions() const {
   std::set<std::string> ids;
   for (const Parameter& p : parameters_) {
     if (!is_assumption(p)) continue;
-    for (std::size_t at = p.source.find("DEV-"); at != std::string::npos; at = p.source.find("DEV-", at + 4)) {
+    for (std::size_t at = p.source.find("DEV-"); at != std::string::npos;
+         at = p.source.find("DEV-", at + 4)) {
       std::size_t end = at + 4;
       while (end < p.source.size() && std::isdigit(static_cast<unsigned char>(p.source[end]))) ++end;
       ids.insert(p.source.substr(at, end - at));

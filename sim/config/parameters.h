@@ -26,7 +26,7 @@ struct Spread {
 
 /// One number of a machine with its provenance.
 struct Parameter {
-  std::string key;               ///< "processor.tick_ns"
+  std::string key;  ///< "processor.tick_ns"
   Value value;
   std::optional<Spread> spread;  ///< none: documented
   std::string source;            ///< "FG86 6.1" or "ASSUMED DEV-003"
@@ -43,10 +43,10 @@ class ParameterSet {
 
   void add(Parameter parameter);
 
-  /// Overrides a value. Throws UserError at `where` for an unknown key (with the nearest known one), a value of
-  /// another type (an integer serves as a real), or one that is not among a parameter's choices. A value outside an
-  /// interval is allowed: that is what a what-if is for. Parameters that follow `key` take the value too unless they
-  /// were set themselves.
+  /// Overrides a value. Throws UserError at `where` for an unknown key (with the nearest known one), a value
+  /// of another type (an integer serves as a real), or one that is not among a parameter's choices. A value
+  /// outside an interval is allowed: that is what a what-if is for. Parameters that follow `key` take the
+  /// value too unless they were set themselves.
   void set(const std::string& key, const Value& value, const Where& where);
 
   /// Sorted DEV ids of all parameters whose source is an assumption.
@@ -57,8 +57,8 @@ class ParameterSet {
   std::set<std::string> set_keys_;
 };
 
-/// Reads parameters into a Spec and finds what nobody read. Every getter throws UserError with file:line and key
-/// when the parameter is missing, has another type, or lies outside what is possible at all.
+/// Reads parameters into a Spec and finds what nobody read. Every getter throws UserError with file:line and
+/// key when the parameter is missing, has another type, or lies outside what is possible at all.
 class ParameterReader {
  public:
   explicit ParameterReader(const ParameterSet& set) : set_(set) {}

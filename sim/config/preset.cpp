@@ -48,11 +48,13 @@ void read_range(Parameter& p, const Node& range) {
                    range.items[0].kind == Node::Kind::kValue && range.items[1].kind == Node::Kind::kValue;
   const auto low = two ? as_number(range.items[0].value) : std::nullopt;
   const auto high = two ? as_number(range.items[1].value) : std::nullopt;
-  if (!low || !high || !(*low <= *high)) fail(range.where, p.key, "`range` must be [low, high] with low <= high");
+  if (!low || !high || !(*low <= *high))
+    fail(range.where, p.key, "`range` must be [low, high] with low <= high");
   const auto value = as_number(p.value);
   if (!value) fail(range.where, p.key, "only a number has a `range`; a list of `choices` is for the rest");
   if (*value < *low || *value > *high)
-    fail(range.where, p.key, fmt::format("the value {} lies outside its range [{}, {}]", *value, *low, *high));
+    fail(range.where, p.key,
+         fmt::format("the value {} lies outside its range [{}, {}]", *value, *low, *high));
   const bool real = std::holds_alternative<double>(range.items[0].value) ||
                     std::holds_alternative<double>(range.items[1].value);
   if (real) p.value = *value;
@@ -83,17 +85,22 @@ void read_spread(Parameter& p, const Node& entry) {
   const std::string name = text_member(p.key, entry, "scale");
   if (name != "log" && name != "linear") fail(scale->where, p.key, "`scale` must be \"log\" or \"linear\"");
   if (!range) fail(scale->where, p.key, "`scale` needs a `range`");
-  if (name == "log" && !(*p.spread->low > 0)) fail(scale->where, p.key, "a log `scale` needs a range above 0");
+  if (name == "log" && !(*p.spread->low > 0))
+    fail(scale->where, p.key, "a log `scale` needs a range above 0");
   p.spread->logarithmic = name == "log";
 }
 
 void check_provenance(const Parameter& p, const Where& where) {
-  if (p.source.empty()) fail(where, p.key, "every entry needs a `source`: a document, or \"ASSUMED DEV-nnn\"");
+  if (p.source.empty())
+    fail(where, p.key, "every entry needs a `source`: a document, or \"ASSUMED DEV-nnn\"");
   if (!is_assumed(p.source)) {
-    if (p.spread) fail(where, p.key, "a documented value has no range or choices: the source must be \"ASSUMED DEV-nnn\"");
+    if (p.spread)
+      fail(where, p.key,
+           "a documented value has no range or choices: the source must be \"ASSUMED DEV-nnn\"");
     return;
   }
-  if (!names_deviation(p.source)) fail(where, p.key, "an assumption must name its deviation: \"ASSUMED DEV-nnn\"");
+  if (!names_deviation(p.source))
+    fail(where, p.key, "an assumption must name its deviation: \"ASSUMED DEV-nnn\"");
   if (!p.spread && p.follows.empty())
     fail(where, p.key, "an assumed value needs a `range` or `choices` (or `follows` another parameter)");
 }
@@ -104,7 +111,8 @@ void collect(const std::string& prefix, const Node& table, std::vector<Parameter
   for (const auto& [name, node] : table.members) {
     const std::string key = prefix.empty() ? name : prefix + "." + name;
     if (node.kind != Node::Kind::kTable)
-      fail(node.where, key, "a parameter is written as { value, source }, or { value, range | choices, source }");
+      fail(node.where, key,
+           "a parameter is written as { value, source }, or { value, range | choices, source }");
     if (!is_entry(node)) {
       collect(key, node, parameters, valueless);
       continue;
@@ -126,7 +134,8 @@ void resolve_followers(std::vector<Parameter>& parameters, const std::set<std::s
   std::vector<std::string> keys;
   for (const Parameter& p : parameters) keys.push_back(p.key);
   const auto find = [&](const std::string& key) {
-    return std::find_if(parameters.begin(), parameters.end(), [&](const Parameter& p) { return p.key == key; });
+    return std::find_if(parameters.begin(), parameters.end(),
+                        [&](const Parameter& p) { return p.key == key; });
   };
   for (Parameter& p : parameters) {
     if (p.follows.empty()) continue;
@@ -135,15 +144,18 @@ void resolve_followers(std::vector<Parameter>& parameters, const std::set<std::s
     while (!leader->follows.empty()) {
       const auto next = find(leader->follows);
       if (next == parameters.end())
-        fail(p.where, p.key, "`follows` names no parameter: " + leader->follows + did_you_mean(leader->follows, keys));
-      if (!seen.insert(next->key).second) fail(p.where, p.key, "`follows` goes round in a circle by " + next->key);
+        fail(p.where, p.key,
+             "`follows` names no parameter: " + leader->follows + did_you_mean(leader->follows, keys));
+      if (!seen.insert(next->key).second)
+        fail(p.where, p.key, "`follows` goes round in a circle by " + next->key);
       leader = &*next;
     }
     if (valueless.count(p.key))
       p.value = leader->value;
     else if (p.value != leader->value && as_number(p.value) != as_number(leader->value))
-      fail(p.where, p.key, fmt::format("the value {} differs from {} = {}, which it follows", to_text(p.value),
-                                       leader->key, to_text(leader->value)));
+      fail(p.where, p.key,
+           fmt::format("the value {} differs from {} = {}, which it follows", to_text(p.value), leader->key,
+                       to_text(leader->value)));
   }
 }
 
@@ -185,8 +197,9 @@ void check_name(const std::string& text, const std::vector<MachinePresets>& mach
   if (m == nullptr) {
     std::string list;
     for (const auto& n : machine_names(machines)) list += (list.empty() ? "" : ", ") + n;
-    fail(where, "machine", "there is no machine `" + name + "`: known are " + list +
-                               ", each with :PRESET, and files ending in .toml");
+    fail(where, "machine",
+         "there is no machine `" + name + "`: known are " + list +
+             ", each with :PRESET, and files ending in .toml");
   }
   if (colon == std::string::npos) return;
   const std::string preset = text.substr(colon + 1);
@@ -219,7 +232,8 @@ Parameter read_parameter(const std::string& key, const Node& entry) {
   const Node* value = entry.member("value");
   if (value == nullptr && p.follows.empty()) fail(entry.where, key, "the entry has no `value`");
   if (value != nullptr) {
-    if (value->kind != Node::Kind::kValue) fail(value->where, key, "`value` must be a number, a string, true or false");
+    if (value->kind != Node::Kind::kValue)
+      fail(value->where, key, "`value` must be a number, a string, true or false");
     p.value = value->value;
   } else if (entry.member("range") || entry.member("choices")) {
     fail(entry.where, key, "the entry has no `value`, but says how far it may be off");
@@ -261,9 +275,7 @@ Preset load_preset(const std::string& name, const std::vector<MachinePresets>& m
   const bool on_disk = is_file(name);
   if (!on_disk) check_name(name, machines, where);
   Preset preset;
-  const auto note_machine = [&](const std::string& text) {
-    preset.machine = text.substr(0, text.find(':'));
-  };
+  const auto note_machine = [&](const std::string& text) { preset.machine = text.substr(0, text.find(':')); };
   const IncludeFinder find = [&](const std::string& include) {
     const auto found = built_in(include, machines);
     if (found) note_machine(include);
@@ -285,7 +297,8 @@ Preset load_preset(const std::string& name, const std::vector<MachinePresets>& m
     collect("", document, parameters, valueless);
   }
   if (preset.machine.empty())
-    fail({name, 0}, "machine", "the file must say which machine it is for, or include a built-in preset of one");
+    fail({name, 0}, "machine",
+         "the file must say which machine it is for, or include a built-in preset of one");
   preset.name = on_disk ? std::filesystem::path(name).stem().string()
                         : std::filesystem::path(root.path).stem().string();
   resolve_followers(parameters, valueless);

@@ -8,7 +8,8 @@
 
 namespace dendro::config {
 
-/// A machine as presets know it: its name, where its presets are embedded, and their names (the first is the default).
+/// A machine as presets know it: its name, where its presets are embedded, and their names (the first is the
+/// default).
 struct MachinePresets {
   std::string name;
   std::string folder;
@@ -23,11 +24,13 @@ struct Preset {
   ParameterSet parameters;
 };
 
-/// Loads `NAME`, `NAME:PRESET` or a file ending in .toml (which includes a built-in one, or names its `machine`).
-/// Throws UserError with file:line and key for everything that is wrong in the files; `where` is blamed for `name`.
+/// Loads `NAME`, `NAME:PRESET` or a file ending in .toml (which includes a built-in one, or names its
+/// `machine`). Throws UserError with file:line and key for everything that is wrong in the files; `where` is
+/// blamed for `name`.
 Preset load_preset(const std::string& name, const std::vector<MachinePresets>& machines, const Where& where);
 
-/// Reads one entry `{ value, range | choices, scale, follows, source }`. Throws UserError with file:line and key.
+/// Reads one entry `{ value, range | choices, scale, follows, source }`. Throws UserError with file:line and
+/// key.
 Parameter read_parameter(const std::string& key, const Node& entry);
 
 /// True when the table is one parameter's entry and not a section of several.
@@ -36,7 +39,8 @@ bool is_entry(const Node& node);
 /// Puts an entry in place of the parameter of the same key. Throws UserError when there is none.
 void replace(ParameterSet& parameters, Parameter parameter);
 
-/// The parameter as a preset's entry, on one line. What was overridden is written as its value and source alone.
+/// The parameter as a preset's entry, on one line. What was overridden is written as its value and source
+/// alone.
 std::string to_entry(const Parameter& parameter);
 
 }  // namespace dendro::config

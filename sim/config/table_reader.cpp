@@ -25,7 +25,8 @@ std::string bound(double v) { return std::isinf(v) ? "any" : fmt::format("{}", v
 }  // namespace
 
 TableReader::TableReader(const Node& table, std::string path) : table_(table), path_(std::move(path)) {
-  if (table_.kind != Node::Kind::kTable) throw UserError(table_.where.file, table_.where.line, path_, "must be a table");
+  if (table_.kind != Node::Kind::kTable)
+    throw UserError(table_.where.file, table_.where.line, path_, "must be a table");
 }
 
 const Node* TableReader::node(const std::string& key) {
@@ -93,7 +94,9 @@ Where TableReader::where(const std::string& key) const {
   return found ? found->where : table_.where;
 }
 
-std::string TableReader::full_key(const std::string& key) const { return path_.empty() ? key : path_ + "." + key; }
+std::string TableReader::full_key(const std::string& key) const {
+  return path_.empty() ? key : path_ + "." + key;
+}
 
 void TableReader::fail(const std::string& key, const std::string& message) const {
   const Where at = where(key);

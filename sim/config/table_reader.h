@@ -8,8 +8,8 @@
 
 namespace dendro::config {
 
-/// Reads a TOML table key by key and finds what nobody read. Every getter takes the default for a missing key and
-/// throws UserError with file:line and the whole key for a wrong type or an impossible value.
+/// Reads a TOML table key by key and finds what nobody read. Every getter takes the default for a missing key
+/// and throws UserError with file:line and the whole key for a wrong type or an impossible value.
 class TableReader {
  public:
   /// `path` is the table's own key ("camera", "object.0"), empty for the root.
@@ -21,13 +21,16 @@ class TableReader {
   /// A member that must be a table, or nullptr.
   const Node* table(const std::string& key);
 
-  std::int64_t integer(const std::string& key, std::int64_t otherwise, std::int64_t lowest, std::int64_t highest);
+  std::int64_t integer(const std::string& key, std::int64_t otherwise, std::int64_t lowest,
+                       std::int64_t highest);
   /// Inclusive bounds; never nan or infinite.
   double real(const std::string& key, double otherwise, double lowest, double highest);
   std::string text(const std::string& key, const std::string& otherwise);
-  std::string choice(const std::string& key, const std::string& otherwise, const std::vector<std::string>& allowed);
+  std::string choice(const std::string& key, const std::string& otherwise,
+                     const std::vector<std::string>& allowed);
   /// `count` finite numbers.
-  std::vector<double> numbers(const std::string& key, const std::vector<double>& otherwise, std::size_t count);
+  std::vector<double> numbers(const std::string& key, const std::vector<double>& otherwise,
+                              std::size_t count);
 
   /// Throws UserError blamed on `key` (or on the table, if it is not there).
   [[noreturn]] void fail(const std::string& key, const std::string& message) const;

@@ -34,7 +34,9 @@ std::vector<std::pair<std::string, T>> pairs_of(const Json& object) {
 Json phases_json(const RunObject& run) {
   Json out = Json::array();
   for (const PhaseRow& p : run.phases)
-    out.push_back({{"name", p.name}, {"cycles", p.cycles}, {"seconds", p.seconds},
+    out.push_back({{"name", p.name},
+                   {"cycles", p.cycles},
+                   {"seconds", p.seconds},
                    {"where", p.on_host ? "host" : "machine"}});
   return out;
 }
@@ -65,12 +67,18 @@ Json marks_json(const RunObject& run) {
 ErrorInfo error_from(const Json& in) {
   ErrorInfo error;
   for (const auto& [name, value] : in.items()) {
-    if (name == "reference") error.reference = value.get<std::string>();
-    else if (name == "psnr_db") error.psnr_db = optional_real(value);
-    else if (name == "max_depth_error") error.max_depth_error = value.get<double>();
-    else if (name == "wrong_pixels") error.wrong_pixels = value.get<std::int64_t>();
-    else if (name == "covered_pixels") error.covered_pixels = value.get<std::int64_t>();
-    else error.extra.emplace_back(name, value.get<double>());
+    if (name == "reference")
+      error.reference = value.get<std::string>();
+    else if (name == "psnr_db")
+      error.psnr_db = optional_real(value);
+    else if (name == "max_depth_error")
+      error.max_depth_error = value.get<double>();
+    else if (name == "wrong_pixels")
+      error.wrong_pixels = value.get<std::int64_t>();
+    else if (name == "covered_pixels")
+      error.covered_pixels = value.get<std::int64_t>();
+    else
+      error.extra.emplace_back(name, value.get<double>());
   }
   return error;
 }
@@ -80,39 +88,42 @@ ErrorInfo error_from(const Json& in) {
 std::string to_json(const RunObject& run) {
   Json units = Json::object();
   for (const UnitRow& unit : run.units) units[unit.unit] = object_of(unit.values);
-  const Json out = {
-      {"schema", 1},
-      {"command", "run"},
-      {"scene", run.scene},
-      {"algorithm", run.algorithm},
-      {"machine", run.machine},
-      {"preset", run.preset},
-      {"level", run.level},
-      {"seed", run.seed},
-      {"cycles", run.cycles},
-      {"clock_hz", run.clock_hz},
-      {"seconds", run.seconds},
-      {"seconds_low", or_null(run.seconds_low)},
-      {"seconds_high", or_null(run.seconds_high)},
-      {"contributions", contributions_json(run)},
-      {"interval_notes", run.interval_notes},
-      {"phases", phases_json(run)},
-      {"units", units},
-      {"image",
-       {{"path", run.image.path}, {"width", run.image.width}, {"height", run.image.height},
-        {"sha256", run.image.sha256}}},
-      {"error", error_json(run.error)},
-      {"host",
-       {{"seconds", run.host.seconds}, {"simulated_hz", run.host.simulated_hz},
-        {"real_time_factor", run.host.real_time_factor}, {"peak_rss_bytes", run.host.peak_rss_bytes}}},
-      {"elaborated", run.elaborated},
-      {"assumptions", run.assumptions},
-      {"machine_cycles", run.machine_cycles},
-      {"instructions", run.instructions},
-      {"time_dependent", run.time_dependent},
-      {"facts", object_of(run.facts)},
-      {"marks", marks_json(run)},
-      {"executions", object_of(run.executions)}};
+  const Json out = {{"schema", 1},
+                    {"command", "run"},
+                    {"scene", run.scene},
+                    {"algorithm", run.algorithm},
+                    {"machine", run.machine},
+                    {"preset", run.preset},
+                    {"level", run.level},
+                    {"seed", run.seed},
+                    {"cycles", run.cycles},
+                    {"clock_hz", run.clock_hz},
+                    {"seconds", run.seconds},
+                    {"seconds_low", or_null(run.seconds_low)},
+                    {"seconds_high", or_null(run.seconds_high)},
+                    {"contributions", contributions_json(run)},
+                    {"interval_notes", run.interval_notes},
+                    {"phases", phases_json(run)},
+                    {"units", units},
+                    {"image",
+                     {{"path", run.image.path},
+                      {"width", run.image.width},
+                      {"height", run.image.height},
+                      {"sha256", run.image.sha256}}},
+                    {"error", error_json(run.error)},
+                    {"host",
+                     {{"seconds", run.host.seconds},
+                      {"simulated_hz", run.host.simulated_hz},
+                      {"real_time_factor", run.host.real_time_factor},
+                      {"peak_rss_bytes", run.host.peak_rss_bytes}}},
+                    {"elaborated", run.elaborated},
+                    {"assumptions", run.assumptions},
+                    {"machine_cycles", run.machine_cycles},
+                    {"instructions", run.instructions},
+                    {"time_dependent", run.time_dependent},
+                    {"facts", object_of(run.facts)},
+                    {"marks", marks_json(run)},
+                    {"executions", object_of(run.executions)}};
   return out.dump(1);
 }
 
@@ -137,10 +148,11 @@ RunObject from_json(const std::string& text) {
   for (const Json& p : in.at("phases"))
     run.phases.push_back({p.at("name").get<std::string>(), p.at("cycles").get<std::int64_t>(),
                           p.at("seconds").get<double>(), p.at("where").get<std::string>() == "host"});
-  for (const auto& [name, values] : in.at("units").items()) run.units.push_back({name, pairs_of<std::uint64_t>(values)});
+  for (const auto& [name, values] : in.at("units").items())
+    run.units.push_back({name, pairs_of<std::uint64_t>(values)});
   const Json& image = in.at("image");
-  run.image = {image.at("path").get<std::string>(), image.at("width").get<int>(), image.at("height").get<int>(),
-               image.at("sha256").get<std::string>()};
+  run.image = {image.at("path").get<std::string>(), image.at("width").get<int>(),
+               image.at("height").get<int>(), image.at("sha256").get<std::string>()};
   run.error = error_from(in.at("error"));
   const Json& host = in.at("host");
   run.host = {host.at("seconds").get<double>(), host.at("simulated_hz").get<double>(),
@@ -151,7 +163,8 @@ RunObject from_json(const std::string& text) {
   run.instructions = in.at("instructions").get<std::uint64_t>();
   run.time_dependent = in.at("time_dependent").get<bool>();
   run.facts = pairs_of<double>(in.at("facts"));
-  for (const Json& m : in.at("marks")) run.marks.emplace_back(m.at("name").get<std::string>(), m.at("tick").get<std::int64_t>());
+  for (const Json& m : in.at("marks"))
+    run.marks.emplace_back(m.at("name").get<std::string>(), m.at("tick").get<std::int64_t>());
   run.executions = pairs_of<std::uint64_t>(in.at("executions"));
   return run;
 }

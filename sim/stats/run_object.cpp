@@ -8,8 +8,8 @@ namespace dendro::stats {
 namespace {
 
 void check_unit(const UnitRow& unit) {
-  DENDRO_CHECK(!unit.values.empty() && unit.values.front().first == "cycles", "{}: the first counter is `cycles`",
-               unit.unit);
+  DENDRO_CHECK(!unit.values.empty() && unit.values.front().first == "cycles",
+               "{}: the first counter is `cycles`", unit.unit);
   std::uint64_t sum = 0;
   std::set<std::string> names;
   for (const auto& [name, value] : unit.values) {
@@ -17,8 +17,8 @@ void check_unit(const UnitRow& unit) {
     if (name == "busy" || name == "idle" || name.compare(0, 6, "stall_") == 0) sum += value;
   }
   DENDRO_CHECK(names.count("busy") && names.count("idle"), "{}: no busy or no idle", unit.unit);
-  DENDRO_CHECK(sum == unit.values.front().second, "{}: busy + stalls + idle = {}, cycles = {}", unit.unit, sum,
-               unit.values.front().second);
+  DENDRO_CHECK(sum == unit.values.front().second, "{}: busy + stalls + idle = {}, cycles = {}", unit.unit,
+               sum, unit.values.front().second);
 }
 
 }  // namespace
@@ -30,8 +30,8 @@ void check_sanity(const RunObject& run) {
     sum += phase.cycles;
   }
   DENDRO_CHECK(sum == run.cycles, "phases add up to {}, cycles = {}", sum, run.cycles);
-  DENDRO_CHECK(run.cycles == 0 || run.machine_cycles <= run.cycles, "machine {} of {} cycles", run.machine_cycles,
-               run.cycles);
+  DENDRO_CHECK(run.cycles == 0 || run.machine_cycles <= run.cycles, "machine {} of {} cycles",
+               run.machine_cycles, run.cycles);
   std::set<std::string> names;
   for (const UnitRow& unit : run.units) {
     DENDRO_CHECK(names.insert(unit.unit).second, "unit {} twice", unit.unit);

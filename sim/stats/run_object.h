@@ -48,7 +48,7 @@ struct HostInfo {
 /// How far one assumption alone moves the run's time.
 struct Contribution {
   std::string key;
-  double low = 0;   ///< seconds
+  double low = 0;  ///< seconds
   double high = 0;
   std::string source;
 };
@@ -73,12 +73,12 @@ struct RunObject {
   std::uint64_t instructions = 0;
   bool time_dependent = false;
   std::vector<std::pair<std::string, double>> facts;
-  std::vector<std::pair<std::string, std::int64_t>> marks;            ///< name, tick
+  std::vector<std::pair<std::string, std::int64_t>> marks;  ///< name, tick
   std::vector<std::pair<std::string, std::uint64_t>> executions;
 };
 
-/// Stops dendro when the counters contradict themselves: a unit whose busy, stall and idle ticks do not add up to its
-/// cycles, phases that do not add up to the run, or more machine time than time.
+/// Stops dendro when the counters contradict themselves: a unit whose busy, stall and idle ticks do not add
+/// up to its cycles, phases that do not add up to the run, or more machine time than time.
 void check_sanity(const RunObject& run);
 
 /// The run object of the contract (schema 1).

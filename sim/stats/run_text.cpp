@@ -10,11 +10,13 @@ namespace dendro::stats {
 namespace {
 
 std::string error_line(const ErrorInfo& error) {
-  const std::string psnr = error.psnr_db ? fmt::format("PSNR {:.1f} dB", *error.psnr_db) : "identical picture";
-  std::string text = fmt::format("against {} precision: {}, depth error at most {:.3g} units, {} of {} covered pixels "
-                                 "wrong",
-                                 error.reference, psnr, error.max_depth_error, grouped(error.wrong_pixels),
-                                 grouped(error.covered_pixels));
+  const std::string psnr =
+      error.psnr_db ? fmt::format("PSNR {:.1f} dB", *error.psnr_db) : "identical picture";
+  std::string text = fmt::format(
+      "against {} precision: {}, depth error at most {:.3g} units, {} of {} covered pixels "
+      "wrong",
+      error.reference, psnr, error.max_depth_error, grouped(error.wrong_pixels),
+      grouped(error.covered_pixels));
   for (const auto& [name, value] : error.extra) text += fmt::format(", {} {:g}", name, value);
   return text;
 }
@@ -44,7 +46,8 @@ std::string unit_lines(const RunObject& run) {
     for (std::size_t i = 1; i < unit.values.size(); ++i) {
       const auto& [name, value] = unit.values[i];
       const bool share = name == "busy" || name == "idle" || name.compare(0, 6, "stall_") == 0;
-      if (share && value != 0) text += fmt::format("  {} {:.1f} %", name, 100.0 * static_cast<double>(value) / total);
+      if (share && value != 0)
+        text += fmt::format("  {} {:.1f} %", name, 100.0 * static_cast<double>(value) / total);
     }
     text += "\n";
   }
@@ -57,8 +60,8 @@ std::string interval_lines(const RunObject& run) {
   for (std::size_t i = 0; i < shown; ++i) {
     const Contribution& c = run.contributions[i];
     if (c.high <= c.low) break;
-    text += fmt::format("    {:<36} {:>10} to {:>10}  {}\n", c.key, readable_seconds(c.low), readable_seconds(c.high),
-                        c.source);
+    text += fmt::format("    {:<36} {:>10} to {:>10}  {}\n", c.key, readable_seconds(c.low),
+                        readable_seconds(c.high), c.source);
   }
   if (!text.empty()) text = "  widened most by\n" + text;
   for (const std::string& note : run.interval_notes) text += "    note: " + note + "\n";
@@ -118,8 +121,8 @@ std::string to_csv(const RunObject& run) {
 }
 
 std::string to_summary(const RunObject& run) {
-  std::string text = fmt::format("{}: {} on {}:{}, level {}\n", run.scene, run.algorithm, run.machine, run.preset,
-                                 run.level);
+  std::string text = fmt::format("{}: {} on {}:{}, level {}\n", run.scene, run.algorithm, run.machine,
+                                 run.preset, run.level);
   text += time_lines(run) + interval_lines(run) + unit_lines(run);
   text += "  " + error_line(run.error) + "\n";
   if (!run.assumptions.empty()) text += fmt::format("  rests on {}\n", fmt::join(run.assumptions, ", "));

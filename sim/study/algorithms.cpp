@@ -55,8 +55,8 @@ tools::Ucode assemble_for(const Source& source, const config::ParameterSet& para
   return assemble_source(source, options).ucode;
 }
 
-/// The program is assembled for the machine at hand: its latencies and sizes are parameters, and so is how densely
-/// the compiler of its time packed.
+/// The program is assembled for the machine at hand: its latencies and sizes are parameters, and so is how
+/// densely the compiler of its time packed.
 half_space::ProgramImage program_for(const Source& source, const config::ParameterSet& parameters) {
   const tools::Ucode ucode = assemble_for(source, parameters);
   half_space::ProgramImage image;
@@ -81,8 +81,11 @@ std::unique_ptr<Job> make_half_space(const scene::Scene& scene, const MachineTyp
 
 const std::vector<Algorithm>& algorithms() {
   static const std::vector<Algorithm> list = {
-      {"half_space", "trees as intersections of half-spaces, two depth registers a pixel (FG86)", {"rds3000"},
-       "firmware/half_space", make_half_space},
+      {"half_space",
+       "trees as intersections of half-spaces, two depth registers a pixel (FG86)",
+       {"rds3000"},
+       "firmware/half_space",
+       make_half_space},
   };
   return list;
 }

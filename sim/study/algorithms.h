@@ -20,7 +20,8 @@ struct Algorithm {
   std::vector<std::string> machines;  ///< names of machines that have firmware for it
   std::string folder;                 ///< "firmware/half_space"; its scenes lie in scenes/ below
   /// Prepares a scene for a machine. Throws UserError for what the algorithm or its firmware cannot do.
-  std::function<std::unique_ptr<Job>(const scene::Scene&, const MachineType&, const config::ParameterSet&)> make;
+  std::function<std::unique_ptr<Job>(const scene::Scene&, const MachineType&, const config::ParameterSet&)>
+      make;
 };
 
 /// The one list of algorithms.
@@ -31,11 +32,11 @@ tools::Ucode half_space_program(const config::ParameterSet& parameters);
 
 /// A microprogram that ships with dendro, in all its packings.
 struct Firmware {
-  std::string name;     ///< "half_space"
+  std::string name;  ///< "half_space"
   std::string machine;
-  std::string path;     ///< of its source below the repository's root
-  std::string pack;     ///< "none" or "full"
-  std::string sha256;   ///< of its .ucode text
+  std::string path;    ///< of its source below the repository's root
+  std::string pack;    ///< "none" or "full"
+  std::string sha256;  ///< of its .ucode text
   std::size_t words = 0;
 };
 

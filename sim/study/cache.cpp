@@ -17,8 +17,10 @@ namespace {
 namespace fs = std::filesystem;
 
 std::string cache_root() {
-  if (const char* xdg = std::getenv("XDG_CACHE_HOME"); xdg && *xdg == '/') return std::string(xdg) + "/dendro";
-  if (const char* home = std::getenv("HOME"); home && *home == '/') return std::string(home) + "/.cache/dendro";
+  if (const char* xdg = std::getenv("XDG_CACHE_HOME"); xdg && *xdg == '/')
+    return std::string(xdg) + "/dendro";
+  if (const char* home = std::getenv("HOME"); home && *home == '/')
+    return std::string(home) + "/.cache/dendro";
   return "";
 }
 
@@ -51,8 +53,9 @@ RunCache::RunCache() : folder_(cache_root()) {
 
 std::string RunCache::key(const RunRequest& request) {
   const SceneFile& file = request.file;
-  std::string text = executable_digest() + "\n" + level_name(request.level) + "\n" + request.type->name + ":" +
-                     request.preset.name + "\n" + std::to_string(file.scene.seed) + "\n" + file.scene.name + "\n";
+  std::string text = executable_digest() + "\n" + level_name(request.level) + "\n" + request.type->name +
+                     ":" + request.preset.name + "\n" + std::to_string(file.scene.seed) + "\n" +
+                     file.scene.name + "\n";
   text += std::to_string(request.options.tick_limit) + (request.options.all_units ? " all" : "") + "\n";
   text += config::to_toml(file.document) + "\n";
   for (const config::Parameter& p : request.preset.parameters.all())
@@ -69,7 +72,8 @@ std::optional<std::string> RunCache::find(const std::string& key) const {
   const std::string bytes(std::istreambuf_iterator<char>(in), {});
   // A line with the digest of the rest tells a whole entry from a damaged one.
   const auto end = bytes.find('\n');
-  if (end == std::string::npos || base::sha256(bytes.substr(end + 1)) != bytes.substr(0, end)) return std::nullopt;
+  if (end == std::string::npos || base::sha256(bytes.substr(end + 1)) != bytes.substr(0, end))
+    return std::nullopt;
   return bytes.substr(end + 1);
 }
 

@@ -8,14 +8,14 @@
 
 namespace dendro::study {
 
-/// Finished runs on disk, below $XDG_CACHE_HOME/dendro or ~/.cache/dendro. A folder that cannot be written means no
-/// cache and no error.
+/// Finished runs on disk, below $XDG_CACHE_HOME/dendro or ~/.cache/dendro. A folder that cannot be written
+/// means no cache and no error.
 class RunCache {
  public:
   RunCache();
 
-  /// Digest of everything that a run depends on: this executable (its firmware sources are inside), all parameters'
-  /// values, level, and the scene with its input files as they are now.
+  /// Digest of everything that a run depends on: this executable (its firmware sources are inside), all
+  /// parameters' values, level, and the scene with its input files as they are now.
   static std::string key(const RunRequest& request);
 
   std::optional<std::string> find(const std::string& key) const;
@@ -25,8 +25,8 @@ class RunCache {
   std::string folder_;  // empty: no cache
 };
 
-/// Makes runs in `jobs` worker processes, with a progress line; no pictures are made. With a cache only what is not in
-/// it, and each run is stored when it is finished; errors are not stored.
+/// Makes runs in `jobs` worker processes, with a progress line; no pictures are made. With a cache only what
+/// is not in it, and each run is stored when it is finished; errors are not stored.
 RunMaker worker_runs(int jobs, Progress* progress, const std::string& name, const RunCache* cache = nullptr);
 
 }  // namespace dendro::study

@@ -56,12 +56,14 @@ Prepared prepare(const Catalogue& catalogue, const ExecArguments& arguments) {
     auto [key, text] = config::split_setting(setting);
     if (key.compare(0, 11, "parameters.") == 0) key = key.substr(11);
     const config::Node value = config::parse_setting(text);
-    if (value.kind != config::Node::Kind::kValue) throw UserError("--set", 0, key, "a parameter is one value");
+    if (value.kind != config::Node::Kind::kValue)
+      throw UserError("--set", 0, key, "a parameter is one value");
     p.preset.parameters.set(key, value.value, {"--set", 0});
   }
   p.ucode = load_ucode(arguments);
   if (p.ucode.machine != p.type->name)
-    throw UserError(arguments.program, 0, "", "the program is for " + p.ucode.machine + ", not " + p.type->name);
+    throw UserError(arguments.program, 0, "",
+                    "the program is for " + p.ucode.machine + ", not " + p.type->name);
   for (const auto& [address, words] : arguments.dumps)
     if (address >= kScratchWords || words > kScratchWords - address)
       throw UserError("--dump", 0, "", fmt::format("the scratchpad has words 0 to {}", kScratchWords - 1));
@@ -72,7 +74,8 @@ Json run_here(const Prepared& p, const ExecArguments& arguments, Progress* progr
   MachineOptions options = arguments.options;
   if (options.tick_limit == 0) options.tick_limit = kDefaultTickLimit;
   options.marks = marked_words(p.ucode.symbols);
-  if (progress && progress->enabled()) options.progress = [progress](std::int64_t tick) { progress->tick(tick); };
+  if (progress && progress->enabled())
+    options.progress = [progress](std::int64_t tick) { progress->tick(tick); };
   const auto start = std::chrono::steady_clock::now();
   const auto machine = p.type->make(p.preset.parameters, p.level, options);
   if (progress) progress->start_run(arguments.program, machine->clock_hz());
@@ -110,7 +113,8 @@ ExecOutput exec_program(const Catalogue& catalogue, const ExecArguments& argumen
   const Prepared prepared = prepare(catalogue, arguments);
   if (!arguments.options.vcd_file.empty() && prepared.level != Level::kClocked)
     throw UserError("--vcd", 0, "", "waveforms exist at --level clocked only");
-  const Json json = Json::parse(run_in_worker([&] { return run_here(prepared, arguments, progress).dump(); }));
+  const Json json =
+      Json::parse(run_in_worker([&] { return run_here(prepared, arguments, progress).dump(); }));
   ExecOutput output;
   output.object = stats::from_json(json.at("run").get<std::string>());
   output.exit_code = json.at("exit_code").get<int>();

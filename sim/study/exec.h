@@ -14,7 +14,7 @@ struct ExecArguments {
   std::string program;  ///< path of a .ucode file, or of a .gia source that is assembled first
   std::string text;     ///< of the program, instead of the file's; `program` only names it then
   std::string level = "cycle";
-  std::vector<std::string> settings;                        ///< key=value of machine parameters
+  std::vector<std::string> settings;                           ///< key=value of machine parameters
   std::vector<std::pair<std::uint32_t, std::uint32_t>> dumps;  ///< scratch address, words
   MachineOptions options;
 };

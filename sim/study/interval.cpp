@@ -51,7 +51,8 @@ class Explorer {
   const std::vector<std::string>& notes() const { return notes_; }
 
  private:
-  std::vector<std::size_t> attempt(std::vector<VariedRun>& runs, const std::vector<std::size_t>& open, bool settle) {
+  std::vector<std::size_t> attempt(std::vector<VariedRun>& runs, const std::vector<std::size_t>& open,
+                                   bool settle) {
     std::vector<std::size_t> again, asked;
     std::vector<RunRequest> requests;
     for (const std::size_t i : open) {
@@ -84,13 +85,14 @@ class Explorer {
       notes_.push_back(run.impossible);
       return false;
     }
-    notes_.push_back(fmt::format("{} stays nominal in a corner, {} is impossible there: {}", key, value,
-                                 error.message()));
+    notes_.push_back(
+        fmt::format("{} stays nominal in a corner, {} is impossible there: {}", key, value, error.message()));
     run.assignment.erase(key);
     return true;
   }
 
-  /// The assigned parameter behind a key that the machine complained about: itself, or the one that it follows.
+  /// The assigned parameter behind a key that the machine complained about: itself, or the one that it
+  /// follows.
   std::string blamed(const Assignment& assignment, std::string key) const {
     const config::ParameterSet& parameters = request_.preset.parameters;
     for (const Parameter* p = parameters.find(key); p && !assignment.count(key); p = parameters.find(key))
@@ -194,7 +196,8 @@ std::vector<Interval> propagate(const RunRequest& request, const stats::RunObjec
   std::size_t next = 0;
   for (const Parameter& p : parameters) {
     alone.push_back({&p, {}});
-    for (std::size_t i = 0; i < alternatives(p).size(); ++i) alone.back().runs.push_back(&single_runs[next++]);
+    for (std::size_t i = 0; i < alternatives(p).size(); ++i)
+      alone.back().runs.push_back(&single_runs[next++]);
   }
 
   std::vector<Assignment> together = {ends(parameters, false), ends(parameters, true)};

@@ -31,24 +31,26 @@ struct Metric {
 struct Interval {
   double low = 0;
   double high = 0;
-  std::vector<stats::Contribution> contributions;  ///< one per varied parameter, widest first; in the metric's unit
-  std::vector<std::string> notes;                  ///< what had to be left out
+  std::vector<stats::Contribution>
+      contributions;               ///< one per varied parameter, widest first; in the metric's unit
+  std::vector<std::string> notes;  ///< what had to be left out
 };
 
 /// Makes runs of these requests, in their order; an impossible one comes back with its error instead.
 using RunMaker = std::function<std::vector<Outcome>(const std::vector<RunRequest>&)>;
 
-/// Parameters that an interval varies: assumed, with a range or choices of their own. One that follows another and
-/// has no range moves with it.
+/// Parameters that an interval varies: assumed, with a range or choices of their own. One that follows
+/// another and has no range moves with it.
 std::vector<config::Parameter> varied_parameters(const config::ParameterSet& parameters);
 
-/// Propagates every assumption's range through the run: all low, all high, each parameter at each of its ends and
-/// choices alone, and per metric the two corners made of each parameter's faster and slower end;
+/// Propagates every assumption's range through the run: all low, all high, each parameter at each of its ends
+/// and choices alone, and per metric the two corners made of each parameter's faster and slower end;
 /// `samples` adds as many points drawn over all ranges at once (seeded, always the same). A combination that
-/// the machine refuses puts the key it blames back to its nominal value and is tried again. Nothing is skipped: a
-/// parameter without effect shows as a contribution of width 0.
+/// the machine refuses puts the key it blames back to its nominal value and is tried again. Nothing is
+/// skipped: a parameter without effect shows as a contribution of width 0.
 std::vector<Interval> propagate(const RunRequest& request, const stats::RunObject& nominal,
-                                const std::vector<Metric>& metrics, const RunMaker& make_runs, int samples = 0);
+                                const std::vector<Metric>& metrics, const RunMaker& make_runs,
+                                int samples = 0);
 
 /// The request with these values in its parameters. Throws UserError.
 RunRequest with_values(const RunRequest& request, const Assignment& assignment);

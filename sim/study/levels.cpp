@@ -18,8 +18,8 @@ struct Made {
   std::optional<RunOutput> output;
 };
 
-/// Host time of a level is told from the level before it: function words to cycle ticks, cycle ticks to clocked ones.
-/// The factors are generous, so that a budget is kept rather than used up.
+/// Host time of a level is told from the level before it: function words to cycle ticks, cycle ticks to
+/// clocked ones. The factors are generous, so that a budget is kept rather than used up.
 double predicted_seconds(Level level, const std::optional<RunOutput>& before) {
   if (!before) return 0;
   const double factor = level == Level::kClocked ? 100.0 : 20.0;
@@ -112,7 +112,8 @@ std::string levels_json(const std::vector<LevelRow>& rows) {
       json["interval"] = {row.cycles, row.cycles};
       json["image_psnr_db"] = row.image_psnr_db ? Json(*row.image_psnr_db) : Json(nullptr);
       json["different_pixels"] = row.different_pixels;
-      json["speedup_over_clocked"] = row.speedup_over_clocked ? Json(*row.speedup_over_clocked) : Json(nullptr);
+      json["speedup_over_clocked"] =
+          row.speedup_over_clocked ? Json(*row.speedup_over_clocked) : Json(nullptr);
       json["skipped"] = nullptr;
     }
     list.push_back(json);

@@ -13,15 +13,16 @@ struct LevelRow {
   std::string level;
   double host_seconds = 0;
   std::int64_t cycles = 0;
-  double cycle_error = 0;                 ///< (cycles - reference) / reference; 0 at a level without time
-  std::optional<double> image_psnr_db;    ///< against the reference's picture; none: identical
+  double cycle_error = 0;               ///< (cycles - reference) / reference; 0 at a level without time
+  std::optional<double> image_psnr_db;  ///< against the reference's picture; none: identical
   std::int64_t different_pixels = 0;
   std::optional<double> speedup_over_clocked;
-  std::optional<std::string> skipped;     ///< why there is no run
+  std::optional<std::string> skipped;  ///< why there is no run
 };
 
-/// The scene at every level, one after another, fastest first. The reference is `clocked`, or `cycle` where `clocked`
-/// was skipped. A level whose predicted host time would go beyond `budget` seconds is skipped (0: no budget).
+/// The scene at every level, one after another, fastest first. The reference is `clocked`, or `cycle` where
+/// `clocked` was skipped. A level whose predicted host time would go beyond `budget` seconds is skipped (0:
+/// no budget).
 std::vector<LevelRow> compare_levels(const Catalogue& catalogue, const RunArguments& arguments, double budget,
                                      Progress* progress);
 

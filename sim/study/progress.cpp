@@ -44,17 +44,20 @@ void Progress::tick(std::int64_t tick) {
   const double host = seconds_since(started_);
   const double rate = host > 0 ? static_cast<double>(tick) / host : 0;
   show(fmt::format("{}: {}, {} simulated, {:.3g} million ticks a second", name_, phase_,
-                   clock_hz_ > 0 ? stats::readable_seconds(static_cast<double>(tick) / clock_hz_) : "", rate / 1e6));
+                   clock_hz_ > 0 ? stats::readable_seconds(static_cast<double>(tick) / clock_hz_) : "",
+                   rate / 1e6));
 }
 
 void Progress::runs(const std::string& name, std::size_t done, std::size_t total) {
   if (done == 0) runs_started_ = std::chrono::steady_clock::now();
   if (!enabled_) return;
   const double spent = seconds_since(runs_started_);
-  const std::string left =
-      done == 0 ? "" : fmt::format(", {:.0f} s left", spent / static_cast<double>(done) * static_cast<double>(total - done));
+  const std::string left = done == 0 ? ""
+                                     : fmt::format(", {:.0f} s left", spent / static_cast<double>(done) *
+                                                                          static_cast<double>(total - done));
   show(fmt::format("{}: {} of {} runs ({:.0f} %){}", name, done, total,
-                   total == 0 ? 100.0 : 100.0 * static_cast<double>(done) / static_cast<double>(total), left));
+                   total == 0 ? 100.0 : 100.0 * static_cast<double>(done) / static_cast<double>(total),
+                   left));
 }
 
 void Progress::clear() {

@@ -39,7 +39,9 @@ class ReportingPort : public HostPort {
  public:
   ReportingPort(HostPort& port, Progress* progress) : port_(port), progress_(progress) {}
 
-  std::uint32_t read(std::uint32_t address, unsigned function) override { return port_.read(address, function); }
+  std::uint32_t read(std::uint32_t address, unsigned function) override {
+    return port_.read(address, function);
+  }
   void write(std::uint32_t address, std::uint32_t value, unsigned function) override {
     port_.write(address, value, function);
   }

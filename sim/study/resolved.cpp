@@ -21,14 +21,15 @@ std::string relative(const std::string& path, const std::string& folder) {
 
 /// The scene's own tables; what the run resolved is written from the request instead.
 bool is_resolved_key(const std::string& key) {
-  for (const char* name : {"machine", "preset", "level", "seed", "name", "image", "parameters", "input", "firmware",
-                           "build", "algorithm"})
+  for (const char* name : {"machine", "preset", "level", "seed", "name", "image", "parameters", "input",
+                           "firmware", "build", "algorithm"})
     if (key == name) return true;
   return false;
 }
 
 bool is_list_of_tables(const Node& node) {
-  return node.kind == Node::Kind::kArray && !node.items.empty() && node.items.front().kind == Node::Kind::kTable;
+  return node.kind == Node::Kind::kArray && !node.items.empty() &&
+         node.items.front().kind == Node::Kind::kTable;
 }
 
 std::string table_lines(const Node& table) {
@@ -76,9 +77,8 @@ std::string parameter_tables(const config::ParameterSet& parameters) {
 /// TOML forbids to open a table twice, so parameters of one section stand together.
 config::ParameterSet by_section(const config::ParameterSet& parameters) {
   std::vector<config::Parameter> all = parameters.all();
-  std::stable_sort(all.begin(), all.end(), [](const auto& a, const auto& b) {
-    return section_of(a.key) < section_of(b.key);
-  });
+  std::stable_sort(all.begin(), all.end(),
+                   [](const auto& a, const auto& b) { return section_of(a.key) < section_of(b.key); });
   config::ParameterSet sorted;
   for (auto& p : all) sorted.add(std::move(p));
   return sorted;
@@ -102,8 +102,10 @@ std::string resolved_scene(const RunRequest& request, const RunOutput& output, c
   text += "seed = " + std::to_string(file.scene.seed) + "\n";
   const auto [values, tables] = scene_tables(file.document, folder);
   text += values;
-  text += fmt::format("build = {{ dendro = {}, compiler = {} }}\n", quoted(executable_digest()), quoted(compiler_name()));
-  text += fmt::format("\n[image]\nwidth = {}\nheight = {}\n", file.scene.image.width, file.scene.image.height);
+  text += fmt::format("build = {{ dendro = {}, compiler = {} }}\n", quoted(executable_digest()),
+                      quoted(compiler_name()));
+  text +=
+      fmt::format("\n[image]\nwidth = {}\nheight = {}\n", file.scene.image.width, file.scene.image.height);
   text += tables;
   for (const auto& [path, digest] : output.inputs)
     text += "\n[[input]]\npath = " + quoted(relative(path, folder)) + "\nsha256 = " + quoted(digest) + "\n";

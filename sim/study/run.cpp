@@ -18,12 +18,16 @@ namespace {
 
 using Json = nlohmann::json;
 
-bool starts_with(const std::string& text, const std::string& start) { return text.compare(0, start.size(), start) == 0; }
+bool starts_with(const std::string& text, const std::string& start) {
+  return text.compare(0, start.size(), start) == 0;
+}
 
-/// Whole entries first: a plain value is meant to stand above the entry that a resolved scene has for the same key.
+/// Whole entries first: a plain value is meant to stand above the entry that a resolved scene has for the
+/// same key.
 void apply_parameters(const SceneFile& file, config::ParameterSet& parameters) {
   for (const auto& [key, node] : file.parameters)
-    if (node.kind == config::Node::Kind::kTable) config::replace(parameters, config::read_parameter(key, node));
+    if (node.kind == config::Node::Kind::kTable)
+      config::replace(parameters, config::read_parameter(key, node));
   for (const auto& [key, node] : file.parameters)
     if (node.kind == config::Node::Kind::kValue) parameters.set(key, node.value, node.where);
 }
@@ -32,8 +36,9 @@ void check_inputs(const std::vector<PinnedDigest>& inputs) {
   for (const PinnedDigest& input : inputs) {
     const std::string now = base::sha256_file(input.name);
     if (now != input.sha256)
-      throw UserError(input.where.file, input.where.line, "input",
-                      fmt::format("{} has changed: its SHA-256 is {}, not {}", input.name, now, input.sha256));
+      throw UserError(
+          input.where.file, input.where.line, "input",
+          fmt::format("{} has changed: its SHA-256 is {}, not {}", input.name, now, input.sha256));
   }
 }
 
@@ -45,8 +50,9 @@ void check_firmware(const std::vector<PinnedDigest>& pins, const Job& job) {
     });
     if (!same)
       throw UserError(pin.where.file, pin.where.line, "firmware",
-                      pin.name + " is not the firmware of this run any more; without this table the scene runs with "
-                                 "what this dendro has");
+                      pin.name +
+                          " is not the firmware of this run any more; without this table the scene runs with "
+                          "what this dendro has");
   }
 }
 
@@ -57,7 +63,8 @@ MachineOptions machine_options(const RunRequest& request, const Job& job, Progre
     const auto marks = marked_words(image.symbols);
     options.marks.insert(marks.begin(), marks.end());
   }
-  if (progress && progress->enabled()) options.progress = [progress](std::int64_t tick) { progress->tick(tick); };
+  if (progress && progress->enabled())
+    options.progress = [progress](std::int64_t tick) { progress->tick(tick); };
   return options;
 }
 
@@ -108,7 +115,8 @@ void add_counters(const Machine& machine, double seconds, stats::RunObject& obje
   object.host = host_info(machine, seconds);
 }
 
-void write_pictures(const Job& job, const MachineView& view, const Picture& picture, const std::string& folder) {
+void write_pictures(const Job& job, const MachineView& view, const Picture& picture,
+                    const std::string& folder) {
   scene::write_png(folder + "/image.png", {picture.width, picture.height, picture.rgb});
   std::vector<scene::FloatChannel> channels;
   for (Layer& layer : job.layers(view)) channels.emplace_back(layer.name, std::move(layer.values));
@@ -139,7 +147,8 @@ Level level_of(const std::string& name, const MachineType& type) {
     if (name == level_name(level)) return level;
     known += (known.empty() ? "" : ", ") + std::string(level_name(level));
   }
-  throw UserError("--level", 0, "", fmt::format("{} has no level `{}`: known are {}", type.name, name, known));
+  throw UserError("--level", 0, "",
+                  fmt::format("{} has no level `{}`: known are {}", type.name, name, known));
 }
 
 RunRequest prepare_run(const Catalogue& catalogue, const RunArguments& arguments) {
@@ -153,7 +162,8 @@ RunRequest prepare_run(const Catalogue& catalogue, const RunArguments& arguments
     return p.second.kind == config::Node::Kind::kTable;
   });
   if (from_command && resolved)
-    throw UserError("--machine", 0, "", file.scene.file + " carries the parameters of its machine; use --set");
+    throw UserError("--machine", 0, "",
+                    file.scene.file + " carries the parameters of its machine; use --set");
   const std::string machine = from_command ? arguments.machine : file.scene.machine;
   const config::Where where = from_command ? config::Where{"--machine", 0} : file.machine_where;
   request.preset = config::load_preset(machine, catalogue.presets(), where);
@@ -193,7 +203,8 @@ RunOutput execute(const RunRequest& request, const std::string& folder, Progress
   RunOutput output;
   output.object = describe(request);
   output.object.facts = job->facts();
-  for (const std::string& path : job->input_files()) output.inputs.emplace_back(path, base::sha256_file(path));
+  for (const std::string& path : job->input_files())
+    output.inputs.emplace_back(path, base::sha256_file(path));
   for (const FirmwareImage& image : job->firmware()) output.firmware.emplace_back(image.name, image.sha256);
 
   const auto start = std::chrono::steady_clock::now();

@@ -16,10 +16,10 @@ namespace dendro::study {
 
 /// What the command line says about a run.
 struct RunArguments {
-  std::string scene;                    ///< built-in name or path
-  std::string machine;                  ///< NAME[:PRESET] or FILE.toml; empty: the scene's
-  std::string level;                    ///< empty: the scene's, else cycle
-  std::vector<std::string> settings;    ///< key=value
+  std::string scene;                  ///< built-in name or path
+  std::string machine;                ///< NAME[:PRESET] or FILE.toml; empty: the scene's
+  std::string level;                  ///< empty: the scene's, else cycle
+  std::vector<std::string> settings;  ///< key=value
   std::optional<std::uint64_t> seed;
   MachineOptions options;
 };
@@ -33,12 +33,13 @@ struct RunRequest {
   config::Preset preset;  ///< with the overrides of scene and command line in its parameters
   Level level = Level::kCycle;
   MachineOptions options;
-  bool with_picture = true;  ///< read the picture back and compare it; without, only time and counters are told
+  bool with_picture =
+      true;  ///< read the picture back and compare it; without, only time and counters are told
 };
 
 struct RunOutput {
   stats::RunObject object;
-  std::vector<std::uint8_t> rgb;  ///< the picture, 8-bit RGB, rows top down
+  std::vector<std::uint8_t> rgb;                              ///< the picture, 8-bit RGB, rows top down
   std::vector<std::pair<std::string, std::string>> inputs;    ///< absolute path, SHA-256
   std::vector<std::pair<std::string, std::string>> firmware;  ///< name, SHA-256
 };

@@ -47,7 +47,8 @@ RunFolder::RunFolder(const std::string& path) {
   while (plain.size() > 1 && plain.back() == '/') plain.pop_back();
   path_ = plain;
   std::error_code error;
-  if (fs::exists(path_, error) && !fs::is_directory(path_, error)) cannot_write(path_, "it is a file, not a folder");
+  if (fs::exists(path_, error) && !fs::is_directory(path_, error))
+    cannot_write(path_, "it is a file, not a folder");
   const fs::path absolute = fs::absolute(path_).lexically_normal();
   made_ = missing_folders(absolute.parent_path());
   fs::create_directories(absolute.parent_path(), error);

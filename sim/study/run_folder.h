@@ -30,8 +30,8 @@ class RunFolder {
   bool committed_ = false;
 };
 
-/// A single output file that appears whole or not at all; a device or pipe is written to directly. "-" is standard
-/// output.
+/// A single output file that appears whole or not at all; a device or pipe is written to directly. "-" is
+/// standard output.
 class OutputFile {
  public:
   /// Throws UserError when it cannot be written; an empty path means no file.

@@ -24,7 +24,8 @@ constexpr double kAny = 1e12;
 
 std::optional<DocumentName> built_in(const std::string& name) {
   for (const std::string& path : base::embedded_files("firmware", ".toml"))
-    if (path.find("/scenes/") != std::string::npos && fs::path(path).stem() == name) return DocumentName{true, path};
+    if (path.find("/scenes/") != std::string::npos && fs::path(path).stem() == name)
+      return DocumentName{true, path};
   return std::nullopt;
 }
 
@@ -35,8 +36,9 @@ DocumentName find_scene(const std::string& name, const Catalogue& catalogue) {
   if (like_path || fs::exists(name, error)) return {false, name};
   std::vector<std::string> names;
   for (const BuiltInScene& s : built_in_scenes(catalogue)) names.push_back(s.name);
-  throw UserError("", 0, name, "there is no such scene" + config::did_you_mean(name, names) +
-                                   " (`dendro scenes` lists them; a file ends in .toml)");
+  throw UserError("", 0, name,
+                  "there is no such scene" + config::did_you_mean(name, names) +
+                      " (`dendro scenes` lists them; a file ends in .toml)");
 }
 
 /// Paths become absolute before documents are merged, because each is relative to the file it stands in.
@@ -59,7 +61,8 @@ void make_paths_absolute(Document& document, const std::string& share) {
       for (Node& item : items->items) make_absolute(item.member(key), document.name, share);
   if (Node* machine = document.root.member("machine")) {
     const auto* text = std::get_if<std::string>(&machine->value);
-    if (text != nullptr && fs::path(*text).extension() == ".toml") make_absolute(machine, document.name, share);
+    if (text != nullptr && fs::path(*text).extension() == ".toml")
+      make_absolute(machine, document.name, share);
   }
 }
 
@@ -67,7 +70,8 @@ void make_paths_absolute(Document& document, const std::string& share) {
 void apply_setting(Node& document, const std::string& setting) {
   const auto [key, text] = config::split_setting(setting);
   Node value = config::parse_setting(text);
-  const bool mesh = key.size() > 5 && key.compare(key.size() - 5, 5, ".mesh") == 0 && key.compare(0, 7, "object.") == 0;
+  const bool mesh =
+      key.size() > 5 && key.compare(key.size() - 5, 5, ".mesh") == 0 && key.compare(0, 7, "object.") == 0;
   if (mesh) make_absolute(&value, DocumentName{false, "./setting"}, "");
   config::set_path(document, key, value);
 }
@@ -94,11 +98,14 @@ scene::Camera read_camera(TableReader& root) {
   TableReader reader(*table, "camera");
   scene::Camera camera;
   camera.where = to_scene(table->where);
-  const bool perspective = reader.choice("projection", "parallel", {"parallel", "perspective"}) == "perspective";
-  camera.projection = perspective ? scene::Camera::Projection::kPerspective : scene::Camera::Projection::kParallel;
+  const bool perspective =
+      reader.choice("projection", "parallel", {"parallel", "perspective"}) == "perspective";
+  camera.projection =
+      perspective ? scene::Camera::Projection::kPerspective : scene::Camera::Projection::kParallel;
   camera.height = reader.real("height", 0, 1e-9, kAny);
   camera.fov_y = reader.real("fov_y", 0, 1e-3, 179.999);
-  if (perspective && !reader.has("fov_y")) reader.fail("fov_y", "a perspective camera needs its vertical angle");
+  if (perspective && !reader.has("fov_y"))
+    reader.fail("fov_y", "a perspective camera needs its vertical angle");
   if (!perspective && !reader.has("height"))
     reader.fail("height", "a parallel camera needs the world height of the picture");
   camera.position = vector3(reader.numbers("position", {0, 0, 1}, 3));
@@ -108,7 +115,8 @@ scene::Camera read_camera(TableReader& root) {
   const scene::Vector3 d = {camera.target[0] - camera.position[0], camera.target[1] - camera.position[1],
                             camera.target[2] - camera.position[2]};
   const scene::Vector3& u = camera.up;
-  const scene::Vector3 cross = {d[1] * u[2] - d[2] * u[1], d[2] * u[0] - d[0] * u[2], d[0] * u[1] - d[1] * u[0]};
+  const scene::Vector3 cross = {d[1] * u[2] - d[2] * u[1], d[2] * u[0] - d[0] * u[2],
+                                d[0] * u[1] - d[1] * u[0]};
   if (d == scene::Vector3{0, 0, 0}) reader.fail("target", "must differ from the position");
   if (cross == scene::Vector3{0, 0, 0}) reader.fail("up", "must not point along the view");
   return camera;
@@ -132,7 +140,8 @@ std::vector<scene::Light> read_lights(TableReader& root) {
   return lights;
 }
 
-std::vector<PinnedDigest> read_pins(TableReader& root, const std::string& list_name, const std::string& name_key) {
+std::vector<PinnedDigest> read_pins(TableReader& root, const std::string& list_name,
+                                    const std::string& name_key) {
   std::vector<PinnedDigest> pins;
   const Node* list = root.node(list_name);
   if (list == nullptr) return pins;
@@ -140,7 +149,8 @@ std::vector<PinnedDigest> read_pins(TableReader& root, const std::string& list_n
   for (std::size_t i = 0; i < list->items.size(); ++i) {
     TableReader reader(list->items[i], fmt::format("{}.{}", list_name, i));
     PinnedDigest pin{reader.text(name_key, ""), reader.text("sha256", ""), list->items[i].where};
-    if (pin.name.empty() || pin.sha256.empty()) reader.fail(name_key, "needs `" + name_key + "` and `sha256`");
+    if (pin.name.empty() || pin.sha256.empty())
+      reader.fail(name_key, "needs `" + name_key + "` and `sha256`");
     reader.finish();
     pins.push_back(std::move(pin));
   }
@@ -151,7 +161,8 @@ std::vector<PinnedDigest> read_pins(TableReader& root, const std::string& list_n
 void read_parameters(const std::string& prefix, const Node& table,
                      std::vector<std::pair<std::string, Node>>& parameters) {
   if (table.kind != Node::Kind::kTable)
-    throw UserError(table.where.file, table.where.line, "parameters", "must be a table of the machine's parameters");
+    throw UserError(table.where.file, table.where.line, "parameters",
+                    "must be a table of the machine's parameters");
   for (const auto& [name, node] : table.members) {
     const std::string key = prefix.empty() ? name : prefix + "." + name;
     const bool section = node.kind == Node::Kind::kTable && !node.member("value") && !node.member("source");
@@ -182,7 +193,8 @@ void interpret(SceneFile& file, const Catalogue& catalogue) {
   s.machine = root.text("machine", catalogue.algorithm(s.algorithm)->machines.front());
   file.machine_where = root.where("machine");
   file.preset_label = root.text("preset", "");
-  if (root.has("level")) file.level = root.choice("level", "cycle", {"function", "estimate", "cycle", "clocked"});
+  if (root.has("level"))
+    file.level = root.choice("level", "cycle", {"function", "estimate", "cycle", "clocked"});
   s.seed = static_cast<std::uint64_t>(root.integer("seed", 1, 0, INT64_MAX));
   s.image = read_image(root);
   s.camera = read_camera(root);
@@ -217,7 +229,8 @@ std::vector<BuiltInScene> built_in_scenes(const Catalogue& catalogue) {
   return scenes;
 }
 
-SceneFile load_scene(const std::string& name, const std::vector<std::string>& settings, const Catalogue& catalogue) {
+SceneFile load_scene(const std::string& name, const std::vector<std::string>& settings,
+                     const Catalogue& catalogue) {
   const DocumentName root = find_scene(name, catalogue);
   SceneFile file;
   for (Document& document : config::load_documents(root, built_in, {})) {

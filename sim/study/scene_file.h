@@ -24,15 +24,16 @@ struct SceneFile {
   config::Where machine_where;
   std::string preset_label;          ///< the preset's name in reports, when the file says so
   std::optional<std::string> level;  ///< the file's own
-  std::vector<std::pair<std::string, config::Node>> parameters;  ///< machine parameters: plain values and whole entries
+  std::vector<std::pair<std::string, config::Node>>
+      parameters;  ///< machine parameters: plain values and whole entries
   std::vector<PinnedDigest> inputs;
   std::vector<PinnedDigest> firmware;
-  config::Node document;             ///< everything as one table, paths absolute
+  config::Node document;  ///< everything as one table, paths absolute
 };
 
 struct BuiltInScene {
   std::string name;
-  std::string path;         ///< embedded
+  std::string path;  ///< embedded
   std::string algorithm;
   std::string machine;
   std::string description;
@@ -41,9 +42,10 @@ struct BuiltInScene {
 /// The scenes that ship with dendro, by name.
 std::vector<BuiltInScene> built_in_scenes(const Catalogue& catalogue);
 
-/// Loads a built-in scene by name or a scene file by path and applies `key=value` settings in their order. Throws
-/// UserError with file:line and key for unknown keys (with the nearest known one), impossible values, and includes
-/// that are missing or go round in a circle.
-SceneFile load_scene(const std::string& name, const std::vector<std::string>& settings, const Catalogue& catalogue);
+/// Loads a built-in scene by name or a scene file by path and applies `key=value` settings in their order.
+/// Throws UserError with file:line and key for unknown keys (with the nearest known one), impossible values,
+/// and includes that are missing or go round in a circle.
+SceneFile load_scene(const std::string& name, const std::vector<std::string>& settings,
+                     const Catalogue& catalogue);
 
 }  // namespace dendro::study

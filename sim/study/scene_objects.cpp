@@ -82,7 +82,8 @@ void read_shape(TableReader& reader, const Node& table, scene::Object& object) {
   object.planes = read_planes(reader);
   object.tree = reader.text("tree", "");
   if (object.tree.empty()) return;
-  static const std::vector<std::string> kCommon = {"tree", "at", "rotate", "scale", "units", "up_axis", "groups"};
+  static const std::vector<std::string> kCommon = {"tree",  "at",      "rotate", "scale",
+                                                   "units", "up_axis", "groups"};
   for (const auto& [key, node] : table.members)
     if (std::find(kCommon.begin(), kCommon.end(), key) == kCommon.end())
       object.tree_parameters[key] = option_value(*reader.node(key), reader.full_key(key));

@@ -93,7 +93,8 @@ std::vector<TableRow> make_table(const std::string& key, const TableContext& con
 
 std::vector<std::string> table_plan(const std::string& key) {
   std::vector<std::string> plan;
-  for (const PaperTable* table : tables_for(key)) plan.insert(plan.end(), table->plan.begin(), table->plan.end());
+  for (const PaperTable* table : tables_for(key))
+    plan.insert(plan.end(), table->plan.begin(), table->plan.end());
   return plan;
 }
 
@@ -124,11 +125,12 @@ std::string table_text(const std::vector<TableRow>& rows) {
                                  "simulated", "interval", "unit", "verdict");
   for (const TableRow& row : rows) {
     const std::string interval = row.low ? number(row.low) + " .. " + number(row.high) : "-";
-    text += fmt::format("{:<10} {:<52} {:>9} {:>9} {:>19} {:<5} {:<7}\n", row.id, row.what, number(row.published),
-                        number(row.simulated), interval, row.unit, verdict(row));
+    text += fmt::format("{:<10} {:<52} {:>9} {:>9} {:>19} {:<5} {:<7}\n", row.id, row.what,
+                        number(row.published), number(row.simulated), interval, row.unit, verdict(row));
     if (!row.reading.empty()) text += "           read as: " + row.reading + "\n";
     if (!row.widened_by.empty()) text += "           widened most by: " + widest(row) + "\n";
-    if (!row.assumptions.empty()) text += fmt::format("           rests on: {}\n", fmt::join(row.assumptions, ", "));
+    if (!row.assumptions.empty())
+      text += fmt::format("           rests on: {}\n", fmt::join(row.assumptions, ", "));
     if (!row.note.empty()) text += "           " + row.note + "\n";
   }
   return text;

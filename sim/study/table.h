@@ -11,15 +11,15 @@ namespace dendro::study {
 
 /// One published figure beside the simulated one.
 struct TableRow {
-  std::string id;     ///< of the claim: "FG86-A7a"
+  std::string id;  ///< of the claim: "FG86-A7a"
   std::string paper;
   std::string what;
   std::string unit;
   std::optional<double> published, simulated, low, high;
-  std::vector<std::string> assumptions;  ///< DEV ids that move the figure, widest first
+  std::vector<std::string> assumptions;         ///< DEV ids that move the figure, widest first
   std::vector<stats::Contribution> widened_by;  ///< in the row's unit, widest first, none without width
-  std::string reading;  ///< how a claim that is not a plain number was read, or empty
-  std::string note;     ///< the reason for the verdict, and what the figure does not say
+  std::string reading;                          ///< how a claim that is not a plain number was read, or empty
+  std::string note;  ///< the reason for the verdict, and what the figure does not say
 
   std::optional<double> ratio() const;  ///< simulated / published
   /// The published value lies inside [low, high].

@@ -15,7 +15,9 @@ namespace {
 constexpr double kBoxPixels = 512.0 * 512.0;
 constexpr int kSamples = 200;
 
-bool starts_with(const std::string& text, const std::string& start) { return text.compare(0, start.size(), start) == 0; }
+bool starts_with(const std::string& text, const std::string& start) {
+  return text.compare(0, start.size(), start) == 0;
+}
 
 double machine_seconds(const stats::RunObject& run) {
   double seconds = 0;
@@ -88,17 +90,21 @@ TableRow time_row(const std::string& id, const std::string& what, const std::str
 /// What the assumed hardware would have to be for the published time, in ticks a pixel and plane.
 std::string ticks_note(const TableRow& row, double ticks, double scale) {
   const double simulated = *row.simulated * scale, published = *row.published * scale;
-  std::string text = fmt::format("{:.1f} ticks a pixel and plane ({:.1f} to {:.1f}), the paper {:.1f}",
-                                 simulated * ticks, *row.low * scale * ticks, *row.high * scale * ticks,
-                                 published * ticks);
+  std::string text =
+      fmt::format("{:.1f} ticks a pixel and plane ({:.1f} to {:.1f}), the paper {:.1f}", simulated * ticks,
+                  *row.low * scale * ticks, *row.high * scale * ticks, published * ticks);
   if (row.inside()) return text;
   if (*row.low > *row.published)
-    return text + fmt::format("; the loop would need {:.1f} ticks less than at best: fewer microinstructions a pixel, or "
-                              "a read shorter than assumed",
-                              (*row.low - *row.published) * scale * ticks);
-  return text + fmt::format("; the loop would need {:.1f} ticks more than at worst: looser microcode, or a read longer "
-                            "than assumed",
-                            (*row.published - *row.high) * scale * ticks);
+    return text +
+           fmt::format(
+               "; the loop would need {:.1f} ticks less than at best: fewer microinstructions a pixel, or "
+               "a read shorter than assumed",
+               (*row.low - *row.published) * scale * ticks);
+  return text +
+         fmt::format(
+             "; the loop would need {:.1f} ticks more than at worst: looser microcode, or a read longer "
+             "than assumed",
+             (*row.published - *row.high) * scale * ticks);
 }
 
 std::vector<TableRow> plane_rows(const TableContext& context, const Propagated& boxed) {
@@ -109,22 +115,26 @@ std::vector<TableRow> plane_rows(const TableContext& context, const Propagated& 
   const double clock = p.nominal.clock_hz;
   const std::size_t planes = plane_seconds(p.nominal).size();
 
-  TableRow plane = time_row("FG86-A7b", "one plane over the whole 512x512 box", "s", 0.75, metrics[0], p,
-                            p.intervals[0]);
-  plane.reading = fmt::format("0.7 to 0.8 s, its middle shown; mean of {} scanned planes with boxing off", planes);
-  plane.note = ticks_note(plane, clock, 1 / kBoxPixels) +
-               fmt::format("; the first plane of the boxed run takes {:.3f} s", plane_seconds(boxed.nominal).front());
+  TableRow plane =
+      time_row("FG86-A7b", "one plane over the whole 512x512 box", "s", 0.75, metrics[0], p, p.intervals[0]);
+  plane.reading =
+      fmt::format("0.7 to 0.8 s, its middle shown; mean of {} scanned planes with boxing off", planes);
+  plane.note =
+      ticks_note(plane, clock, 1 / kBoxPixels) +
+      fmt::format("; the first plane of the boxed run takes {:.3f} s", plane_seconds(boxed.nominal).front());
 
-  TableRow pixel = time_row("FG86-A7c", "one plane at one pixel", "us", 0.75 / kBoxPixels * 1e6, metrics[1], p,
-                            p.intervals[1]);
-  pixel.reading = "FG86-K8: not the printed 50 us (all planes of a pixel) but 12 s / (20 x 512^2) = 2.3 to 0.8 s / "
-                  "512^2 = 3.1 us; 0.75 s / 512^2 shown";
+  TableRow pixel = time_row("FG86-A7c", "one plane at one pixel", "us", 0.75 / kBoxPixels * 1e6, metrics[1],
+                            p, p.intervals[1]);
+  pixel.reading =
+      "FG86-K8: not the printed 50 us (all planes of a pixel) but 12 s / (20 x 512^2) = 2.3 to 0.8 s / "
+      "512^2 = 3.1 us; 0.75 s / 512^2 shown";
   pixel.note = fmt::format("all planes of a pixel: {:.1f} us", machine_seconds(p.nominal) / kBoxPixels * 1e6);
   return {plane, pixel};
 }
 
 TableRow picture_row(const Propagated& p, const Metric& metric, const Interval& interval) {
-  TableRow row = time_row("FG86-A7a", "icosahedron in a 512x512 box, whole picture", "s", 12.0, metric, p, interval);
+  TableRow row =
+      time_row("FG86-A7a", "icosahedron in a 512x512 box, whole picture", "s", 12.0, metric, p, interval);
   row.reading = "FG86-K9: seen along a two-fold axis, 16 planes scanned; passes 0 to 4, without loading";
   double scanned = 0, edge_on = 0;
   for (const auto& [name, value] : p.nominal.facts) {
@@ -138,8 +148,9 @@ TableRow picture_row(const Propagated& p, const Metric& metric, const Interval& 
   row.note += fmt::format("{:.1f} us a pixel of the box", *row.simulated / kBoxPixels * 1e6);
   if (!row.inside()) {
     const bool slow = *row.low > *row.published;
-    row.note += fmt::format("; {} even at the {} corner: the box would have to shrink {} than it does",
-                            slow ? "slower" : "faster", slow ? "fastest" : "slowest", slow ? "sooner" : "later");
+    row.note +=
+        fmt::format("; {} even at the {} corner: the box would have to shrink {} than it does",
+                    slow ? "slower" : "faster", slow ? "fastest" : "slowest", slow ? "sooner" : "later");
   }
   return row;
 }
@@ -147,8 +158,10 @@ TableRow picture_row(const Propagated& p, const Metric& metric, const Interval& 
 TableRow load_row(const Propagated& p, const Metric& metric, const Interval& interval) {
   TableRow row = time_row("FG86-A10", "load of one separate program", "s", 4.5, metric, p, interval);
   row.reading = "\"several seconds\": 2 to 7 s, the middle shown";
-  row.note = "says little: the host software's time is assumed from the same sentence (DEV-028); the transfer itself "
-             "is modelled";
+  row.note =
+      "says little: the host software's time is assumed from the same sentence (DEV-028); the transfer "
+      "itself "
+      "is modelled";
   return row;
 }
 
@@ -159,8 +172,10 @@ TableRow multiply_row(const TableContext& context) {
   arguments.program = "multiply.gia";
   arguments.text =
       "reg t = r0;\nentry start;\nstart:\n  t = 3;\n  mul_x = t;\n  mul_y = t;\nmark_begin:\n  mul signed;\n"
-      "  if (product_ready) goto mark_end;\n  if (product_ready) goto mark_end;\n  if (product_ready) goto mark_end;\n"
-      "  if (product_ready) goto mark_end;\n  if (product_ready) goto mark_end;\n  if (product_ready) goto mark_end;\n"
+      "  if (product_ready) goto mark_end;\n  if (product_ready) goto mark_end;\n  if (product_ready) goto "
+      "mark_end;\n"
+      "  if (product_ready) goto mark_end;\n  if (product_ready) goto mark_end;\n  if (product_ready) goto "
+      "mark_end;\n"
       "mark_end:\n  halt;\n";
   arguments.level = context.options.level;
   // A taken branch would be counted with the product it waited for.
@@ -177,13 +192,14 @@ TableRow multiply_row(const TableContext& context) {
   row.published = 400;
   row.simulated = ticks / output.object.clock_hz * 1e9;
   row.low = row.high = row.simulated;
-  row.note = fmt::format("{:g} ticks of {:g} ns, measured by a microprogram; both are documented inputs of the model",
-                         ticks, 1e9 / output.object.clock_hz);
+  row.note = fmt::format(
+      "{:g} ticks of {:g} ns, measured by a microprogram; both are documented inputs of the model", ticks,
+      1e9 / output.object.clock_hz);
   return row;
 }
 
-/// Words between a depth_step label and the next label that add a register onto another in place, the pixel address
-/// aside: the additions that a pixel's depth costs.
+/// Words between a depth_step label and the next label that add a register onto another in place, the pixel
+/// address aside: the additions that a pixel's depth costs.
 std::set<std::uint32_t> depth_additions(const tools::Ucode& program) {
   using namespace bps32;
   std::set<std::uint32_t> counted;
@@ -194,8 +210,8 @@ std::set<std::uint32_t> depth_additions(const tools::Ucode& program) {
       if (at > start) end = std::min(end, at);
     for (std::uint32_t at = start; at < end; ++at) {
       const std::uint64_t word = program.words[at];
-      const bool adds = get(word, kFunc) == kRPlusS && get(word, kI0) == 0 && get(word, kOeb) == 0 &&
-                        get(word, kEa) == 0;
+      const bool adds =
+          get(word, kFunc) == kRPlusS && get(word, kI0) == 0 && get(word, kOeb) == 0 && get(word, kEa) == 0;
       const unsigned dest = get(word, kDest);
       const bool in_place = dest == kRam || dest == kRamAlso;
       if (adds && in_place && get(word, kYdst) != kYBusX) counted.insert(at);

@@ -65,7 +65,8 @@ std::string message_of(const std::function<std::string()>& task) {
   ::prctl(PR_SET_PDEATHSIG, SIGKILL);
   write_all(fd, message_of(task));
   ::close(fd);
-  // Destructors of a SystemC that was elaborated here have nothing to do that the end of the process does not.
+  // Destructors of a SystemC that was elaborated here have nothing to do that the end of the process does
+  // not.
   std::fflush(nullptr);
   std::_Exit(0);
 }
@@ -104,9 +105,11 @@ Outcome collect(const Worker& worker) {
   while (::waitpid(worker.pid, &status, 0) < 0 && errno == EINTR) {
   }
   if (WIFSIGNALED(status))
-    throw WorkerCrash(fmt::format("a run ended by signal {} ({})", WTERMSIG(status), strsignal(WTERMSIG(status))));
+    throw WorkerCrash(
+        fmt::format("a run ended by signal {} ({})", WTERMSIG(status), strsignal(WTERMSIG(status))));
   if (WEXITSTATUS(status) == 70) throw WorkerCrash("");
-  if (WEXITSTATUS(status) != 0) throw WorkerCrash(fmt::format("a run ended with status {}", WEXITSTATUS(status)));
+  if (WEXITSTATUS(status) != 0)
+    throw WorkerCrash(fmt::format("a run ended with status {}", WEXITSTATUS(status)));
   const Json message = Json::from_cbor(worker.bytes);
   Outcome outcome;
   if (message.contains("error")) {

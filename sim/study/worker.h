@@ -32,10 +32,10 @@ struct Outcome {
   const std::string& value() const;
 };
 
-/// Runs each task in a process of its own, at most `jobs` at once, and gathers what they return in their order.
-/// SystemC allows one elaboration per process, so no task may have started one in this process. `finished(i)` is
-/// called after each with its result in place. Throws WorkerCrash or Interrupted after ending the workers that still
-/// run.
+/// Runs each task in a process of its own, at most `jobs` at once, and gathers what they return in their
+/// order. SystemC allows one elaboration per process, so no task may have started one in this process.
+/// `finished(i)` is called after each with its result in place. Throws WorkerCrash or Interrupted after
+/// ending the workers that still run.
 std::vector<Outcome> run_in_workers(const std::vector<std::function<std::string()>>& tasks, int jobs,
                                     const std::function<void(std::size_t, const Outcome&)>& finished = {});
 

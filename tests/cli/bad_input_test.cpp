@@ -123,7 +123,8 @@ TEST_F(BadInput, WhatIsWrongInTheMiddleLeavesNoDirectory) {
 }
 
 TEST_F(BadInput, UnknownKeysNameTheNearest) {
-  expect_user_error("run icosahedron --set parameters.processor.tick_n=3", "did you mean `processor.tick_ns`?");
+  expect_user_error("run icosahedron --set parameters.processor.tick_n=3",
+                    "did you mean `processor.tick_ns`?");
   expect_user_error("run icosahedron --set imge.width=3", "did you mean `image`?");
   expect_user_error("run icosaedron", "did you mean `icosahedron`?");
   expect_user_error("run icosahedron --machine rds300", "rds3000");
@@ -132,9 +133,12 @@ TEST_F(BadInput, UnknownKeysNameTheNearest) {
 }
 
 TEST_F(BadInput, ImpossibleParameters) {
-  expect_user_error("run icosahedron --set parameters.processor.scratch_words=100", "processor.scratch_words");
-  expect_user_error("run icosahedron --set parameters.processor.multiply_ticks=1000", "processor.multiply_ticks");
-  expect_user_error("run icosahedron --set parameters.frame_memory.bits_per_pixel=25", "must be 24, 32 or 48");
+  expect_user_error("run icosahedron --set parameters.processor.scratch_words=100",
+                    "processor.scratch_words");
+  expect_user_error("run icosahedron --set parameters.processor.multiply_ticks=1000",
+                    "processor.multiply_ticks");
+  expect_user_error("run icosahedron --set parameters.frame_memory.bits_per_pixel=25",
+                    "must be 24, 32 or 48");
   expect_user_error("run icosahedron --set parameters.microcode.pack=half", "\"none\", \"full\"");
   expect_user_error("exec rds3000 nothing.ucode --set processor.tick_ns=fast", "processor.tick_ns");
 }

@@ -36,8 +36,9 @@ class CommandTest : public ::testing::Test {
   /// `arguments` is a shell's text; the working directory is the test's folder.
   Result dendro(const std::string& arguments) const {
     const std::string out = (base_ / "out").string(), err = (base_ / "err").string();
-    const std::string line = "cd '" + folder_.string() + "' && XDG_CACHE_HOME='" + (base_ / "cache").string() +
-                             "' '" DENDRO "' " + arguments + " >'" + out + "' 2>'" + err + "' </dev/null";
+    const std::string line = "cd '" + folder_.string() + "' && XDG_CACHE_HOME='" +
+                             (base_ / "cache").string() + "' '" DENDRO "' " + arguments + " >'" + out +
+                             "' 2>'" + err + "' </dev/null";
     const int status = std::system(line.c_str());
     return {WIFEXITED(status) ? WEXITSTATUS(status) : 1000 + WTERMSIG(status), text_of(out), text_of(err)};
   }

@@ -9,8 +9,10 @@ using nlohmann::json;
 using Commands = CommandTest;
 
 const char* const kProgram =
-    "// Adds up 1 to 10.\nreg n = r0;\nreg sum = r1;\nscratch result[4] @ 0;\nentry start;\nstart:\n  n = 10;\n"
-    "  sum = 0;\nagain:\n  sum = sum + n;\n  n = n - 1 -> flags;\n  if (!zero) goto again;\n  result[0] = sum;\n  halt;\n";
+    "// Adds up 1 to 10.\nreg n = r0;\nreg sum = r1;\nscratch result[4] @ 0;\nentry start;\nstart:\n  n = "
+    "10;\n"
+    "  sum = 0;\nagain:\n  sum = sum + n;\n  n = n - 1 -> flags;\n  if (!zero) goto again;\n  result[0] = "
+    "sum;\n  halt;\n";
 
 TEST_F(Commands, ListsNameWhatThereIs) {
   for (const char* name : {"icosahedron", "aspen-hull", "bishop-hull"})
@@ -41,13 +43,15 @@ TEST_F(Commands, ExecRunsAProgramAtEveryLevel) {
   write("p.gia", kProgram);
   ASSERT_EQ(0, dendro("asm rds3000 p.gia -o p.ucode").status);
   for (const char* level : {"function", "cycle", "clocked"}) {
-    const Result result = dendro(std::string("exec rds3000 p.ucode --dump 0:2 --json o.json --level ") + level);
+    const Result result =
+        dendro(std::string("exec rds3000 p.ucode --dump 0:2 --json o.json --level ") + level);
     ASSERT_EQ(0, result.status) << result.err;
     EXPECT_EQ("", result.err);
-    EXPECT_NE(std::string::npos, result.out.find("scratch[0] = 0x00000037\nscratch[1] = 0x00000000\n")) << result.out;
+    EXPECT_NE(std::string::npos, result.out.find("scratch[0] = 0x00000037\nscratch[1] = 0x00000000\n"))
+        << result.out;
     const json o = json::parse(read("o.json"));
-    for (const char* key : {"schema", "command", "machine", "preset", "level", "cycles", "instructions", "clock_hz",
-                            "seconds", "exit_code", "units", "host"})
+    for (const char* key : {"schema", "command", "machine", "preset", "level", "cycles", "instructions",
+                            "clock_hz", "seconds", "exit_code", "units", "host"})
       EXPECT_TRUE(o.contains(key)) << key;
     EXPECT_EQ(55, o["exit_code"]);
     EXPECT_EQ(level, o["level"]);
@@ -106,7 +110,8 @@ TEST_F(Commands, BenchMeasuresTheLevelAskedFor) {
   EXPECT_LT(0.0, rows[0]["simulated_hz"]);
 }
 
-// On a picture of 64x64 pixels the times mean nothing, but the rows, the cache and the exit statuses are the same.
+// On a picture of 64x64 pixels the times mean nothing, but the rows, the cache and the exit statuses are the
+// same.
 TEST_F(Commands, TableHasItsRowsAndATolerance) {
   const std::string small = "table FG86 --set image.width=64 --set image.height=64 --json o.json";
   const Result result = dendro(small);
@@ -117,13 +122,14 @@ TEST_F(Commands, TableHasItsRowsAndATolerance) {
   std::vector<std::string> ids;
   for (const json& row : rows) {
     ids.push_back(row["id"]);
-    for (const char* key : {"id", "paper", "what", "unit", "published", "simulated", "low", "high", "ratio", "inside",
-                            "assumptions", "reading", "note"})
+    for (const char* key : {"id", "paper", "what", "unit", "published", "simulated", "low", "high", "ratio",
+                            "inside", "assumptions", "reading", "note"})
       EXPECT_TRUE(row.contains(key)) << key;
     EXPECT_LE(row["low"], row["simulated"]) << row["id"];
     EXPECT_GE(row["high"], row["simulated"]) << row["id"];
   }
-  EXPECT_EQ((std::vector<std::string>{"FG86-A3", "FG86-A7a", "FG86-A7b", "FG86-A7c", "FG86-A10", "FG86-A17"}), ids);
+  EXPECT_EQ((std::vector<std::string>{"FG86-A3", "FG86-A7a", "FG86-A7b", "FG86-A7c", "FG86-A10", "FG86-A17"}),
+            ids);
   EXPECT_EQ(400.0, rows[0]["simulated"]);
   EXPECT_EQ(1.0, rows[5]["simulated"]);
 

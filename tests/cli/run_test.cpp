@@ -25,15 +25,16 @@ TEST_F(Run, WritesAWholeRunDirectoryAndTheObjectOfTheContract) {
   const Result result = dendro("run s.toml --out run --json o.json");
   ASSERT_EQ(0, result.status) << result.err;
   EXPECT_EQ("", result.err) << "no banner, no progress into a pipe";
-  EXPECT_EQ((std::vector<std::string>{"m.obj", "o.json", "run", "run/image.exr", "run/image.png", "run/resolved.toml",
-                                      "run/stats.csv", "run/stats.json", "run/summary.txt", "s.toml"}),
+  EXPECT_EQ((std::vector<std::string>{"m.obj", "o.json", "run", "run/image.exr", "run/image.png",
+                                      "run/resolved.toml", "run/stats.csv", "run/stats.json",
+                                      "run/summary.txt", "s.toml"}),
             names());
   EXPECT_EQ(result.out, read("run/summary.txt"));
   EXPECT_EQ(read("o.json"), read("run/stats.json"));
   const json o = json::parse(read("o.json"));
-  expect_keys(o, {"schema", "command", "scene", "algorithm", "machine", "preset", "level", "seed", "cycles", "clock_hz",
-                  "seconds", "seconds_low", "seconds_high", "phases", "units", "image", "error", "host", "elaborated",
-                  "assumptions"});
+  expect_keys(o, {"schema", "command", "scene",    "algorithm", "machine",     "preset",       "level",
+                  "seed",   "cycles",  "clock_hz", "seconds",   "seconds_low", "seconds_high", "phases",
+                  "units",  "image",   "error",    "host",      "elaborated",  "assumptions"});
   expect_keys(o["image"], {"path", "width", "height", "sha256"});
   expect_keys(o["error"], {"reference", "psnr_db", "max_depth_error", "wrong_pixels", "covered_pixels"});
   expect_keys(o["host"], {"seconds", "simulated_hz", "real_time_factor", "peak_rss_bytes"});
@@ -61,7 +62,8 @@ TEST_F(Run, TheResolvedSceneRepeatsTheRunBitForBit) {
   write("s.toml", scene_with("mesh = \"m.obj\"\n"));
   ASSERT_EQ(0, dendro("run s.toml --out first --quiet --set parameters.frame_memory.read_ticks=5").status);
   ASSERT_EQ(0, dendro("run first/resolved.toml --out second --quiet").status);
-  EXPECT_EQ(repeatable(json::parse(read("first/stats.json"))), repeatable(json::parse(read("second/stats.json"))));
+  EXPECT_EQ(repeatable(json::parse(read("first/stats.json"))),
+            repeatable(json::parse(read("second/stats.json"))));
   EXPECT_EQ(read("first/image.png"), read("second/image.png"));
   EXPECT_EQ(read("first/resolved.toml"), read("second/resolved.toml"));
 
@@ -127,7 +129,8 @@ TEST_F(Run, AFasterClockIsFasterInProportion) {
 
 TEST_F(Run, AWaveformIsWrittenAtClocked) {
   write("s.toml", scene_with("solid = \"icosahedron\"\n"));
-  const Result result = dendro("run s.toml --level clocked --quiet --out run --vcd w.vcd --vcd-from 0 --vcd-to 200");
+  const Result result =
+      dendro("run s.toml --level clocked --quiet --out run --vcd w.vcd --vcd-from 0 --vcd-to 200");
   ASSERT_EQ(0, result.status) << result.err;
   EXPECT_EQ("", result.out + result.err);
   EXPECT_NE(std::string::npos, read("w.vcd").find("$enddefinitions"));

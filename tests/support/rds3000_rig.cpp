@@ -33,6 +33,7 @@ void add_processor(std::vector<std::string>& out, const ProcessorState& p) {
   out.push_back(fmt::format("write_data {:08x} read_data {:08x}", p.write_data, p.read_data));
   out.push_back(fmt::format("multiplier {:04x} {:04x} {:08x} in {}", p.mul_x, p.mul_y, p.product, p.product_in));
   out.push_back(fmt::format("running {}", p.running));
+  for (unsigned i = 0; i < 64 && i < p.scratch.size(); ++i) out.push_back(fmt::format("scratch{} {:08x}", i, p.scratch[i]));
   out.push_back("scratch " + digest(p.scratch));
   out.push_back("control " + digest(p.control));
 }

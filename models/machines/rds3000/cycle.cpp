@@ -13,8 +13,8 @@ using bps32::Decoded;
 struct CyclePort {
   CycleEngine& engine;
 
-  bool bus_busy() const { return engine.access_done_ > engine.now_; }
-  bool data_ready() const { return engine.data_ready_ <= engine.now_; }
+  bool bus_busy() const { return engine.holds_.bus_busy(engine.now_); }
+  bool data_ready() const { return engine.holds_.data_ready(engine.now_); }
   const video::Phase& raster() const {
     return engine.now_ > engine.raster_from_ ? engine.raster_ : engine.raster_before_;
   }
@@ -58,7 +58,8 @@ CycleEngine::CycleEngine(const Spec& spec, const MachineOptions& options)
       processor_(bps32::power_on(spec.processor)),
       devices_(spec),
       timing_(spec.memory, spec.processor.tick_ps),
-      decoded_(spec.processor.control_store_words) {
+      decoded_(spec.processor.control_store_words),
+      holds_(spec.processor) {
   raster_ = {video::raster_of(devices_.video, spec.video, spec.memory.fetch_bits), -spec.video.phase_ps};
   raster_before_ = raster_;
   timing_.set_fetches({raster_.raster, raster_.origin_ps, 0, tick_ps()});
@@ -109,9 +110,7 @@ std::int64_t CycleEngine::start_access(bool write, std::uint32_t address, unsign
 inline void CycleEngine::book_access(bool write, std::int64_t asked, std::int64_t granted, int read_ticks) {
   const int held = write ? spec_.bus.write_ticks : 1;
   bus_free_ = granted + held;
-  access_done_ = granted + (write ? held : read_ticks);
-  if (!write) data_ready_ = access_done_;
-  if (spec_.processor.accesses_in_flight == 0) hold_ = std::max(hold_, access_done_);
+  holds_.access(write, granted + (write ? held : read_ticks));
   (write ? bus_counters_.processor_writes : bus_counters_.processor_reads) += 1;
   bus_counters_.busy += static_cast<std::uint64_t>(bus_free_ - asked);
 }
@@ -125,38 +124,24 @@ void CycleEngine::change_video(std::uint32_t address, std::int64_t tick) {
   timing_.set_fetches({raster_.raster, raster_.origin_ps, raster_.origin_ps, tick_ps()});
 }
 
-// The common case of hold(): nothing keeps the word from executing now.
-inline bool CycleEngine::ready(const Decoded& word) const {
-  return now_ >= hold_ && (!word.reads_bus || now_ >= data_ready_) && (!word.starts_access || now_ >= access_done_) &&
-         (!word.touches_scratch || spec_.processor.scratch_ticks == 1);
+std::uint64_t& CycleEngine::counter(bps32::Cause cause) {
+  switch (cause) {
+    case bps32::Cause::kHost: return counters_.stall_host;
+    case bps32::Cause::kBranch: return counters_.stall_branch;
+    case bps32::Cause::kData: return counters_.stall_data;
+    case bps32::Cause::kBus: return counters_.stall_bus;
+    default: return counters_.stall_scratch;
+  }
 }
 
 // Lives through the ticks in which the word cannot execute; false when `end` comes first.
 bool CycleEngine::hold(const Decoded& word, std::int64_t end) {
-  const auto stall = [this, end](std::int64_t until, std::uint64_t& cause) {
-    const std::int64_t to = std::min(until, end);
-    cause += static_cast<std::uint64_t>(to - now_);
-    now_ = to;
-  };
-  const bool needs_bus = word.starts_access || spec_.processor.accesses_in_flight == 0;
-  const int scratch_wait = word.touches_scratch ? spec_.processor.scratch_ticks - 1 : 0;
   while (now_ < end) {
-    if (now_ < host_hold_) {
-      stall(host_hold_, counters_.stall_host);
-    } else if (now_ < branch_hold_) {
-      stall(branch_hold_, counters_.stall_branch);
-    } else if (word.reads_bus && now_ < data_ready_) {
-      stall(data_ready_, counters_.stall_data);
-    } else if (needs_bus && now_ < access_done_) {
-      stall(access_done_, counters_.stall_bus);
-    } else {
-      if (scratch_wait > 0 && scratch_until_ < 0) scratch_until_ = now_ + scratch_wait;
-      if (now_ >= scratch_until_) {
-        scratch_until_ = -1;
-        return true;
-      }
-      stall(scratch_until_, counters_.stall_scratch);
-    }
+    const bps32::Hold hold = holds_.at(word, now_);
+    if (hold.cause == bps32::Cause::kNone) return true;
+    const std::int64_t to = std::min(hold.until, end);
+    counter(hold.cause) += static_cast<std::uint64_t>(to - now_);
+    now_ = to;
   }
   return false;
 }
@@ -166,45 +151,28 @@ void CycleEngine::passed(const Decoded& word) {
   time_dependent_ |= word.reads_time;
 }
 
-// Words that only compute or jump are done here with time and address in registers; all else goes through execute().
 void CycleEngine::stride(std::int64_t end) {
   CyclePort port{*this};
   const Decoded* const words = decoded_.data() + bps32::page_base(processor_);
-  const int branch_ticks = spec_.processor.taken_branch_ticks;
-  std::int64_t now = now_;
+  const bool branches_cost = spec_.processor.taken_branch_ticks != 0;
   std::uint16_t pc = processor_.pc;
-  while (now < end) {
+  while (now_ < end) {
     const Decoded& word = words[pc];
-    const std::uint16_t next = (pc + 1) & am2910::kAddressMask;
-    if (!word.holds && now >= hold_ && processor_.product_in == 0 && word.kind != Decoded::kGeneric) {
-      if (word.kind == Decoded::kAlu) {
-        word.alu(processor_, word);
-        pc = next;
-      } else {
-        pc = bps32::condition(processor_, word.cond, port) != word.pol ? word.imm : next;
-      }
-      ++now;
-    } else {
-      now_ = now;
+    if (word.holds || holds_.holds_any(now_)) {
       processor_.pc = pc;
-      if (word.holds || now < hold_) {
-        if (!ready(word) && !hold(word, end)) return;
-        if (word.marked || word.reads_time) passed(word);
-      }
-      bps32::execute(processor_, word, spec_.processor, port);
-      now = ++now_;
-      pc = processor_.pc;
-      if (word.halt) {
-        stopped(now);
-        return;
-      }
+      if (!holds_.clear(word, now_) && !hold(word, end)) return;
+      if (word.marked || word.reads_time) passed(word);
     }
-    if (branch_ticks != 0 && pc != next) {
-      branch_hold_ = now + branch_ticks;
-      hold_ = std::max(hold_, branch_hold_);
+    const std::uint16_t next = (pc + 1) & am2910::kAddressMask;
+    bps32::execute_fast(processor_, word, spec_.processor, port, pc);
+    if (branches_cost && pc != next) holds_.branch(now_);
+    ++now_;
+    if (word.halt) {
+      processor_.pc = pc;
+      stopped(now_);
+      return;
     }
   }
-  now_ = now;
   processor_.pc = pc;
 }
 
@@ -251,10 +219,7 @@ std::uint32_t CycleEngine::transfer(bool write, std::uint32_t address, std::uint
   std::uint32_t word = 0;
   if (board) {
     run_until(granted + 1);
-    if (processor_.running) {
-      host_hold_ = granted + 1 + spec_.processor.steal_ticks;
-      hold_ = std::max(hold_, host_hold_);
-    }
+    if (processor_.running) holds_.steal(granted);
     if (write) {
       const std::int64_t changed = write_processor_board(processor_, address, data);
       if (changed >= 0) decode(static_cast<std::size_t>(changed));
@@ -279,7 +244,7 @@ void CycleEngine::command(bool run, bool reset) {
   if (run && !reset && !processor_.running) {
     for (std::size_t word = 0; word < decoded_.size(); ++word) decode(word);
     processor_.running = true;
-    scratch_until_ = -1;
+    holds_.start();
     now_ = run_from_ = tick + 1;
   }
 }

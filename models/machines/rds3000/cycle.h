@@ -5,7 +5,7 @@
 
 #include "models/machines/rds3000/devices.h"
 #include "models/machines/rds3000/engine.h"
-#include "models/parts/bps32/bps32.h"
+#include "models/parts/bps32/bps32_timing.h"
 #include "models/parts/dr64/dr64_timing.h"
 
 namespace dendro::rds3000 {
@@ -40,8 +40,8 @@ class CycleEngine : public Engine {
 
   void run_until(std::int64_t end);
   void stride(std::int64_t end);
-  bool ready(const bps32::Decoded& word) const;
   bool hold(const bps32::Decoded& word, std::int64_t end);
+  std::uint64_t& counter(bps32::Cause cause);
   void passed(const bps32::Decoded& word);
   void stopped(std::int64_t at);
   void find_loop();
@@ -69,10 +69,8 @@ class CycleEngine : public Engine {
 
   std::int64_t now_ = 0;            ///< next tick the processor has not lived through, while it runs
   std::int64_t run_from_ = 0;
-  std::int64_t hold_ = 0;           ///< no word at all executes before: the latest of the next two and, blocking, access_done_
-  std::int64_t host_hold_ = 0, branch_hold_ = 0;
-  std::int64_t scratch_until_ = -1; ///< end of the scratch wait of the word at hand; -1: not begun
-  std::int64_t bus_free_ = 0, access_done_ = 0, data_ready_ = 0;
+  std::int64_t bus_free_ = 0;
+  bps32::Holds holds_;
 };
 
 }  // namespace dendro::rds3000

@@ -79,17 +79,19 @@ void FunctionEngine::run_to_halt() {
   FunctionPort port{processor_, devices_, words_};
   LoopFinder finder;
   const std::uint64_t limit = options_.tick_limit > 0 ? words_ + options_.tick_limit : UINT64_MAX;
+  std::uint16_t pc = processor_.pc;
   while (processor_.running) {
-    const bps32::Decoded& word = decoded[processor_.pc];
-    const std::size_t index = base + processor_.pc;
+    const bps32::Decoded& word = decoded[pc];
+    const std::size_t index = base + pc;
     ++executions_[index];
     if (word.marked) marks_.push_back({options_.marks.at(index), static_cast<std::int64_t>(words_)});
     time_dependent_ |= word.reads_time;
     port.words = words_;
-    bps32::execute(processor_, word, spec_.processor, port);
+    bps32::execute_fast(processor_, word, spec_.processor, port, pc);
     if (++words_ > limit && finder.see(static_cast<std::uint32_t>(index)))
       throw finder.error(options_.tick_limit, options_.marks);
   }
+  processor_.pc = pc;
 }
 
 void FunctionEngine::compute(const Work&) {}

@@ -23,6 +23,21 @@ bool told_by_time(unsigned cond) {
   return cond == kBusBusy || cond == kDataReady || cond == kVerticalBlank || cond == kFieldFlag || cond == kHostFlag;
 }
 
+Decoded::Kind kind_of(const Decoded& d) {
+  const bool multiplies = d.mul == kMulSigned || d.mul == kMulUnsigned;
+  // plain_alu first: with a special function the same destination code is a divide step.
+  const bool leaves_data =
+      d.plain_alu && d.dest == kYOnly && !d.latch && d.ydst == kYNone && d.dsrc != kDSpadArInc;
+  const bool goes_on = d.seq == am2910::kCONT;
+  if (d.halt || multiplies + d.starts_access > 1) return Decoded::kGeneric;
+  if (multiplies) return leaves_data && goes_on ? Decoded::kMultiply : Decoded::kGeneric;
+  if (d.starts_access) return leaves_data && goes_on ? Decoded::kAccess : Decoded::kGeneric;
+  if (goes_on) return d.plain_alu ? Decoded::kAlu : Decoded::kGeneric;
+  if (!leaves_data) return Decoded::kGeneric;
+  if (d.seq == am2910::kCJP) return Decoded::kJump;
+  return d.seq == am2910::kRFCT || d.seq == am2910::kRPCT ? Decoded::kLoop : Decoded::kGeneric;
+}
+
 }  // namespace
 
 Decoded decode(std::uint64_t word) {
@@ -60,14 +75,8 @@ Decoded decode(std::uint64_t word) {
   d.touches_scratch = is_spad(d.dsrc, kDSpad) || is_spad(d.ydst, kYSpad);
   d.reads_time = tests_condition(d.seq) && told_by_time(d.cond);
   d.holds = d.reads_bus || d.starts_access || d.touches_scratch || d.reads_time;
-  const bool quiet = !d.starts_access && d.mul != kMulSigned && d.mul != kMulUnsigned && !d.halt;
-  if (quiet && d.plain_alu && d.seq == am2910::kCONT) {
-    d.kind = Decoded::kAlu;
-    d.alu = alu_handler(d);
-  } else if (quiet && d.seq == am2910::kCJP && d.dest == kYOnly && !d.latch && d.ydst == kYNone &&
-             d.dsrc != kDSpadArInc) {
-    d.kind = Decoded::kJump;
-  }
+  d.kind = kind_of(d);
+  if (d.kind == Decoded::kAlu) d.alu = alu_handler(d);
   return d;
 }
 

@@ -22,8 +22,10 @@ struct Decoded {
   bool pol = false, i0 = false, ea = false, oeb = false, latch = false, halt = false;
 
   /// What a word may at most do, so that execute() need not ask field by field.
-  enum Kind : std::uint8_t { kGeneric, kAlu, kJump };
-  Kind kind = kGeneric;         ///< kAlu: a plain ALU operation, then the next word; kJump: CJP and nothing else
+  /// kAlu: a plain ALU operation, then the next word. The others leave the data alone: kJump is CJP, kLoop is RFCT or
+  /// RPCT, kAccess starts an access, kMultiply a multiplication, then the next word.
+  enum Kind : std::uint8_t { kGeneric, kAlu, kJump, kLoop, kAccess, kMultiply };
+  Kind kind = kGeneric;
   AluHandler alu = nullptr;     ///< for kAlu
   bool uses_d = false;          ///< the D bus reaches R or S
   bool plain_alu = false;       ///< no shifter, no Q, no special function: F goes to Y and perhaps to RAM[B]

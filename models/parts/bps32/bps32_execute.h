@@ -182,25 +182,19 @@ inline std::uint32_t execute_data(ProcessorState& p, const Decoded& d) {
   return y;
 }
 
+template <class Port>
+inline void start_access(ProcessorState& p, const Decoded& d, Port& port) {
+  if (d.busop == kBusRead) port.start_read(p.bus_address, d.busfn);
+  if (d.busop == kBusWrite) port.start_write(p.bus_address, p.write_data, d.busfn);
+}
+
 /// Executes one word: all of the data sheet's steps 1 to 8. Time is the caller's.
 template <class Port>
 inline void execute(ProcessorState& p, const Decoded& d, const ProcessorSpec& spec, Port& port) {
-  if (d.kind == Decoded::kAlu) {
-    execute_data(p, d);
-    if (p.product_in != 0) clock_multiplier(p, kMulNone, spec.multiply_ticks);
-    p.pc = (p.pc + 1) & am2910::kAddressMask;
-    return;
-  }
   const bool pass = d.seq == am2910::kCONT || condition(p, d.cond, port) != d.pol;
-  if (d.kind == Decoded::kJump) {
-    if (p.product_in != 0) clock_multiplier(p, kMulNone, spec.multiply_ticks);
-    p.pc = pass ? d.imm : (p.pc + 1) & am2910::kAddressMask;
-    return;
-  }
   const std::uint32_t y = execute_data(p, d);
   if ((d.mul | p.product_in) != 0) clock_multiplier(p, d.mul, spec.multiply_ticks);
-  if (d.busop == kBusRead) port.start_read(p.bus_address, d.busfn);
-  if (d.busop == kBusWrite) port.start_write(p.bus_address, p.write_data, d.busfn);
+  start_access(p, d, port);
   if (d.seq == am2910::kCONT) {
     p.pc = (p.pc + 1) & am2910::kAddressMask;
   } else {
@@ -211,6 +205,44 @@ inline void execute(ProcessorState& p, const Decoded& d, const ProcessorSpec& sp
     p.running = false;
     p.interrupt = true;
   }
+}
+
+/// execute() by the word's kind, which says what can be left out. `pc` is the caller's copy of p.pc, which is only
+/// brought up to date for a kGeneric word.
+template <class Port>
+inline void execute_fast(ProcessorState& p, const Decoded& d, const ProcessorSpec& spec, Port& port,
+                         std::uint16_t& pc) {
+  const std::uint16_t next = (pc + 1) & am2910::kAddressMask;
+  unsigned mul = kMulNone;
+  // Two thirds of all words, told apart by branches: cheaper than one jump through the switch's table for all.
+  if (d.kind == Decoded::kAlu) {
+    d.alu(p, d);
+    pc = next;
+    if (p.product_in != 0) clock_multiplier(p, kMulNone, spec.multiply_ticks);
+    return;
+  }
+  if (d.kind == Decoded::kJump) {
+    pc = condition(p, d.cond, port) != d.pol ? d.imm : next;
+    if (p.product_in != 0) clock_multiplier(p, kMulNone, spec.multiply_ticks);
+    return;
+  }
+  switch (d.kind) {
+    case Decoded::kLoop: pc = am2910::step(p, d.seq, true, pc, d.imm); break;
+    case Decoded::kAccess:
+      start_access(p, d, port);
+      pc = next;
+      break;
+    case Decoded::kMultiply:
+      mul = d.mul;
+      pc = next;
+      break;
+    default:
+      p.pc = pc;
+      execute(p, d, spec, port);
+      pc = p.pc;
+      return;
+  }
+  if ((mul | p.product_in) != 0) clock_multiplier(p, mul, spec.multiply_ticks);
 }
 
 }  // namespace dendro::bps32

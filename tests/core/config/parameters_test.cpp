@@ -18,7 +18,8 @@ Parameter parameter(const std::string& key, Value value, const std::string& sour
   return p;
 }
 
-Parameter assumed(const std::string& key, Value value, const std::string& deviation, double low, double high) {
+Parameter assumed(const std::string& key, Value value, const std::string& deviation, double low,
+                  double high) {
   Parameter p = parameter(key, std::move(value), "ASSUMED " + deviation);
   p.spread = Spread{low, high, {}, false};
   return p;
@@ -38,7 +39,8 @@ ParameterSet example() {
   set.add(parameter("processor.tick_ns", 200.0));
   set.add(assumed("memory.read_ticks", std::int64_t{4}, "DEV-003", 3, 6));
   Parameter mode = parameter("video.mode", std::int64_t{0}, "ASSUMED DEV-004");
-  mode.spread = Spread{{}, {}, {Value(std::string("blanked")), Value(std::int64_t{0}), Value(std::int64_t{1})}, false};
+  mode.spread =
+      Spread{{}, {}, {Value(std::string("blanked")), Value(std::int64_t{0}), Value(std::int64_t{1})}, false};
   set.add(mode);
   Parameter tied = parameter("host.other_ticks", std::int64_t{4}, "ASSUMED DEV-005");
   tied.follows = "memory.read_ticks";
@@ -54,15 +56,18 @@ TEST(ParameterSet, AnIntegerServesAsAReal) {
 
 TEST(ParameterSet, ARealDoesNotServeAsAnInteger) {
   ParameterSet set = example();
-  EXPECT_EQ("scene.toml:3: memory.read_ticks: 4.5 is not an integer, as this parameter is",
-            error_of([&] { set.set("memory.read_ticks", 4.5, {"scene.toml", 3}); }));
+  EXPECT_EQ("scene.toml:3: memory.read_ticks: 4.5 is not an integer, as this parameter is", error_of([&] {
+              set.set("memory.read_ticks", 4.5, {"scene.toml", 3});
+            }));
   EXPECT_EQ(Value(std::int64_t{4}), set.find("memory.read_ticks")->value);
 }
 
 TEST(ParameterSet, AnUnknownKeyNamesTheNearestOne) {
   ParameterSet set = example();
   EXPECT_EQ("--set: memory.read_tics: the machine has no such parameter; did you mean `memory.read_ticks`?",
-            error_of([&] { set.set("memory.read_tics", std::int64_t{4}, {"--set", 0}); }));
+            error_of([&] {
+              set.set("memory.read_tics", std::int64_t{4}, {"--set", 0});
+            }));
 }
 
 TEST(ParameterSet, AValueOutsideTheIntervalIsAWhatIf) {
@@ -73,8 +78,9 @@ TEST(ParameterSet, AValueOutsideTheIntervalIsAWhatIf) {
 
 TEST(ParameterSet, AValueThatIsNoChoiceIsAnError) {
   ParameterSet set = example();
-  EXPECT_EQ("--set: video.mode: 3 is none of its choices: \"blanked\", 0, 1",
-            error_of([&] { set.set("video.mode", std::int64_t{3}, {"--set", 0}); }));
+  EXPECT_EQ("--set: video.mode: 3 is none of its choices: \"blanked\", 0, 1", error_of([&] {
+              set.set("video.mode", std::int64_t{3}, {"--set", 0});
+            }));
 }
 
 TEST(ParameterSet, AFollowerTakesTheValueUnlessItWasSetItself) {
@@ -97,7 +103,8 @@ TEST(ParameterSet, WhatTheUserSetIsNoAssumptionAnyMore) {
 TEST(ParameterReader, AMissingParameterIsNamed) {
   const ParameterSet set = example();
   ParameterReader reader(set);
-  EXPECT_NE(std::string::npos, error_of([&] { reader.real("processor.tock_ns", 0, 1); }).find("processor.tock_ns"));
+  EXPECT_NE(std::string::npos,
+            error_of([&] { reader.real("processor.tock_ns", 0, 1); }).find("processor.tock_ns"));
 }
 
 TEST(ParameterReader, AnImpossibleValueIsAnErrorAtItsPlace) {

@@ -12,13 +12,14 @@
 namespace dendro::config {
 namespace {
 
-const base::EmbeddedFile kFirst{"machines/toy/first.toml",
-                                "description = \"as built\"\n"
-                                "[processor]\n"
-                                "tick_ns = { value = 200.0, source = \"FG86 6.1\" }\n"
-                                "[memory]\n"
-                                "read_ticks = { value = 4, range = [3, 6], source = \"ASSUMED DEV-003\" }\n"
-                                "tied_ticks = { follows = \"memory.read_ticks\", source = \"ASSUMED DEV-004\" }\n"};
+const base::EmbeddedFile kFirst{
+    "machines/toy/first.toml",
+    "description = \"as built\"\n"
+    "[processor]\n"
+    "tick_ns = { value = 200.0, source = \"FG86 6.1\" }\n"
+    "[memory]\n"
+    "read_ticks = { value = 4, range = [3, 6], source = \"ASSUMED DEV-003\" }\n"
+    "tied_ticks = { follows = \"memory.read_ticks\", source = \"ASSUMED DEV-004\" }\n"};
 const base::EmbeddedFile kSecond{"machines/toy/second.toml",
                                  "include = \"first.toml\"\n"
                                  "[memory]\n"
@@ -78,7 +79,8 @@ TEST_F(PresetFile, LaterKeysOverrideIncludedOnesAndFollowersFollow) {
 }
 
 TEST_F(PresetFile, AFileMayIncludeABuiltInPreset) {
-  const Preset preset = load("include = [\"toy:first\"]\n[processor]\ntick_ns = { value = 150.0, source = \"mine\" }\n");
+  const Preset preset =
+      load("include = [\"toy:first\"]\n[processor]\ntick_ns = { value = 150.0, source = \"mine\" }\n");
   EXPECT_EQ("toy", preset.machine);
   EXPECT_EQ("p", preset.name);
   EXPECT_EQ(Value(150.0), preset.parameters.find("processor.tick_ns")->value);
@@ -112,13 +114,15 @@ TEST_F(PresetFile, AnEntryWithoutSourceIsAnError) {
 }
 
 TEST_F(PresetFile, AnEntryWithoutValueIsAnError) {
-  EXPECT_EQ("p.toml:2: a.b: the entry has no `value`", error("machine = \"toy\"\na.b = { source = \"x\" }\n"));
+  EXPECT_EQ("p.toml:2: a.b: the entry has no `value`",
+            error("machine = \"toy\"\na.b = { source = \"x\" }\n"));
   EXPECT_EQ("p.toml:2: a.b: the entry has no `value`", error("machine = \"toy\"\na.b = {}\n"));
 }
 
 TEST_F(PresetFile, APlainValueIsNoEntry) {
-  EXPECT_EQ("p.toml:3: a.b: a parameter is written as { value, source }, or { value, range | choices, source }",
-            error("machine = \"toy\"\n[a]\nb = 3\n"));
+  EXPECT_EQ(
+      "p.toml:3: a.b: a parameter is written as { value, source }, or { value, range | choices, source }",
+      error("machine = \"toy\"\n[a]\nb = 3\n"));
 }
 
 TEST_F(PresetFile, AnUnknownSubKeyNamesTheNearest) {
@@ -129,7 +133,8 @@ TEST_F(PresetFile, AnUnknownSubKeyNamesTheNearest) {
 TEST_F(PresetFile, ARangeContainsItsValue) {
   EXPECT_EQ("p.toml:2: a.b: the value 7 lies outside its range [3, 6]",
             error("machine = \"toy\"\na.b = { value = 7, range = [3, 6], source = \"ASSUMED DEV-001\" }\n"));
-  EXPECT_EQ("no error", error("machine = \"toy\"\na.b = { value = 6, range = [3, 6], source = \"ASSUMED DEV-001\" }\n"));
+  EXPECT_EQ("no error",
+            error("machine = \"toy\"\na.b = { value = 6, range = [3, 6], source = \"ASSUMED DEV-001\" }\n"));
 }
 
 TEST_F(PresetFile, AnAssumptionSaysHowFarItMayBeOffAndNamesItsDeviation) {
@@ -144,18 +149,20 @@ TEST_F(PresetFile, ADocumentedValueHasNoRange) {
 }
 
 TEST_F(PresetFile, ALogarithmicScaleNeedsAPositiveRange) {
-  EXPECT_NE("no error", error("machine = \"toy\"\n"
-                              "a.b = { value = 7, range = [0, 9], scale = \"log\", source = \"ASSUMED DEV-001\" }\n"));
-  const Preset preset = load("machine = \"toy\"\n"
-                             "a.b = { value = 7, range = [0.5, 9], scale = \"log\", source = \"ASSUMED DEV-001\" }\n");
+  EXPECT_NE("no error",
+            error("machine = \"toy\"\n"
+                  "a.b = { value = 7, range = [0, 9], scale = \"log\", source = \"ASSUMED DEV-001\" }\n"));
+  const Preset preset = load(
+      "machine = \"toy\"\n"
+      "a.b = { value = 7, range = [0.5, 9], scale = \"log\", source = \"ASSUMED DEV-001\" }\n");
   EXPECT_TRUE(preset.parameters.find("a.b")->spread->logarithmic);
   EXPECT_EQ(Value(7.0), preset.parameters.find("a.b")->value) << "a real range makes a real parameter";
 }
 
 TEST_F(PresetFile, FollowersInACircleAreAnError) {
-  EXPECT_NE(std::string::npos,
-            error("machine = \"toy\"\na.b = { follows = \"a.c\", source = \"x\" }\n"
-                  "a.c = { follows = \"a.b\", source = \"x\" }\n").find("circle"));
+  EXPECT_NE(std::string::npos, error("machine = \"toy\"\na.b = { follows = \"a.c\", source = \"x\" }\n"
+                                     "a.c = { follows = \"a.b\", source = \"x\" }\n")
+                                   .find("circle"));
 }
 
 TEST_F(PresetFile, AFollowerThatDisagreesIsAnError) {
@@ -189,7 +196,8 @@ TEST_F(PresetFile, ADamagedFileIsAUserErrorAndNothingElse) {
   SCOPED_TRACE(::testing::Message() << "seed " << seed);
   std::mt19937 random(seed);
   const std::string good =
-      "machine = \"toy\"\n[a]\nb = { value = 7, range = [0.5, 9], scale = \"log\", source = \"ASSUMED DEV-001\" }\n"
+      "machine = \"toy\"\n[a]\nb = { value = 7, range = [0.5, 9], scale = \"log\", source = \"ASSUMED "
+      "DEV-001\" }\n"
       "c = { value = \"x\", choices = [\"x\", 1], source = \"ASSUMED DEV-002\" }\n";
   int errors = 0;
   for (int i = 0; i < 2000; ++i) {

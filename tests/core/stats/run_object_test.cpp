@@ -22,7 +22,8 @@ RunObject example() {
   run.clock_hz = 5e6;
   run.seconds = 2e-6;
   run.phases = {{"load", 4, 0.8e-6, true}, {"scan", 6, 1.2e-6, false}};
-  run.units = {{"rds3000.processor", {{"cycles", 10}, {"busy", 5}, {"stall_bus", 1}, {"idle", 4}, {"reads", 99}}}};
+  run.units = {
+      {"rds3000.processor", {{"cycles", 10}, {"busy", 5}, {"stall_bus", 1}, {"idle", 4}, {"reads", 99}}}};
   run.image = {"out/image.png", 2, 1, "ab"};
   run.error = {"double", std::nullopt, 0.25, 1, 2, {{"wrong_pixels_far", 0}}};
   run.host = {0.5, 12, 2.4, 1000};
@@ -34,9 +35,10 @@ RunObject example() {
 
 TEST(RunObject, HasEveryKeyOfTheContract) {
   const Json json = Json::parse(to_json(example()));
-  for (const char* key : {"schema", "command", "scene", "algorithm", "machine", "preset", "level", "seed", "cycles",
-                          "clock_hz", "seconds", "seconds_low", "seconds_high", "phases", "units", "image", "error",
-                          "host", "elaborated", "assumptions"})
+  for (const char* key :
+       {"schema", "command", "scene",    "algorithm", "machine",     "preset",       "level",
+        "seed",   "cycles",  "clock_hz", "seconds",   "seconds_low", "seconds_high", "phases",
+        "units",  "image",   "error",    "host",      "elaborated",  "assumptions"})
     EXPECT_TRUE(json.contains(key)) << key;
   EXPECT_EQ(1, json["schema"]);
   EXPECT_EQ("run", json["command"]);

@@ -12,8 +12,8 @@
 #include "sim/base/error.h"
 #include "sim/study/run.h"
 
-/// A machine whose time is a formula of its parameters, and an algorithm that fits it, so that studies can be tested
-/// against sums done by hand.
+/// A machine whose time is a formula of its parameters, and an algorithm that fits it, so that studies can be
+/// tested against sums done by hand.
 namespace dendro::study::fake {
 
 inline const base::EmbeddedFile kPreset{
@@ -121,7 +121,10 @@ inline Catalogue catalogue() {
   };
   MachineType other = type;
   other.name = "other";
-  Algorithm toy{"toy", "a toy", {"fake"}, "fake/algorithm",
+  Algorithm toy{"toy",
+                "a toy",
+                {"fake"},
+                "fake/algorithm",
                 [](const scene::Scene& scene, const MachineType&, const config::ParameterSet&) {
                   return std::make_unique<FakeJob>(scene);
                 }};

@@ -6,7 +6,8 @@
 namespace dendro::study {
 namespace {
 
-// Time of the fake: 10000 / words_per_s + (2 or, dense, 1) * (a + b + c) ticks of 1 ms. Nominal: 100 + 36 = 136.
+// Time of the fake: 10000 / words_per_s + (2 or, dense, 1) * (a + b + c) ticks of 1 ms. Nominal: 100 + 36 =
+// 136.
 
 class IntervalTest : public fake::TestFolder {
  protected:
@@ -36,7 +37,8 @@ class IntervalTest : public fake::TestFolder {
   }
 
   Interval interval(const RunRequest& r, int samples = 0) {
-    const std::vector<Metric> metrics = {{"ticks", [](const stats::RunObject& run) { return double(run.cycles); }}};
+    const std::vector<Metric> metrics = {
+        {"ticks", [](const stats::RunObject& run) { return double(run.cycles); }}};
     return propagate(r, execute(r, "", nullptr).object, metrics, here(), samples).front();
   }
 
@@ -80,7 +82,8 @@ TEST_F(IntervalTest, WhatTheUserSetIsNotVaried) {
 }
 
 TEST_F(IntervalTest, AnImpossibleCornerGivesUpOnlyTheParameterThatIsToBlame) {
-  // Dense words make everything slower here than c > 6 allows: with b = 8, c follows to 8 and the machine refuses.
+  // Dense words make everything slower here than c > 6 allows: with b = 8, c follows to 8 and the machine
+  // refuses.
   RunRequest r = request({"parameters.mode.kind=dense"});
   const Interval i = interval(r);
   const std::string notes = i.notes.empty() ? "" : i.notes.front();
@@ -97,7 +100,8 @@ TEST_F(IntervalTest, SamplesStayInsideTheRangesAndAreTheSameEveryTime) {
 
 TEST_F(IntervalTest, WorkersGiveWhatThisProcessGives) {
   const RunRequest r = request();
-  const std::vector<Metric> metrics = {{"ticks", [](const stats::RunObject& run) { return double(run.cycles); }}};
+  const std::vector<Metric> metrics = {
+      {"ticks", [](const stats::RunObject& run) { return double(run.cycles); }}};
   const auto here_object = execute(r, "", nullptr).object;
   Progress silent("off");
   const Interval there = propagate(r, here_object, metrics, worker_runs(2, &silent, "toy")).front();

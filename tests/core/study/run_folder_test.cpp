@@ -45,15 +45,14 @@ TEST_F(RunFolderTest, KeepsOtherFilesOfAnExistingFolder) {
 
 TEST_F(RunFolderTest, AFileInTheWayIsAUserError) {
   write("file", "");
-  EXPECT_EQ("file: cannot write here: it is a file, not a folder", error_of([&] { RunFolder f(path("file")); }));
+  EXPECT_EQ("file: cannot write here: it is a file, not a folder",
+            error_of([&] { RunFolder f(path("file")); }));
   EXPECT_NE("no error", error_of([&] { RunFolder f(path("file/below/it")); }));
   EXPECT_EQ((std::vector<std::string>{"file"}), names());
 }
 
 TEST_F(RunFolderTest, AnOutputFileAppearsAtTheCommit) {
-  {
-    OutputFile never(path("x"));
-  }
+  { OutputFile never(path("x")); }
   EXPECT_TRUE(names().empty());
   OutputFile file(path("x"));
   file.commit("text");

@@ -47,7 +47,8 @@ TEST_F(RunTest, TheResolvedSceneRepeatsTheRun) {
   arguments.seed = 99;
   const std::string mesh = write("m.obj", "v 0 0 0\n");
   const std::string text =
-      "algorithm = \"toy\"\ndescription = \"x @ y\"\n[image]\nheight = 1\n[camera]\nheight = 1.0\n[[object]]\nmesh = \"m.obj\"\n";
+      "algorithm = \"toy\"\ndescription = \"x @ y\"\n[image]\nheight = 1\n[camera]\nheight = "
+      "1.0\n[[object]]\nmesh = \"m.obj\"\n";
   const RunRequest first = request(text, arguments);
   const RunOutput output = execute(first, "", nullptr);
   std::filesystem::create_directory(path("run"));
@@ -71,7 +72,8 @@ TEST_F(RunTest, TheResolvedSceneRepeatsTheRun) {
 
 TEST_F(RunTest, AResolvedSceneInsistsOnItsFirmware) {
   RunRequest r = request(fake::toy_scene("[[firmware]]\nname = \"toy.gia\"\nsha256 = \"another\"\n"));
-  EXPECT_EQ(0u, error_of([&] { execute(r, "", nullptr); }).find("s.toml:9: firmware: toy.gia is not the firmware"));
+  EXPECT_EQ(
+      0u, error_of([&] { execute(r, "", nullptr); }).find("s.toml:9: firmware: toy.gia is not the firmware"));
 }
 
 TEST_F(RunTest, OutputsSurviveThePipe) {
@@ -81,7 +83,8 @@ TEST_F(RunTest, OutputsSurviveThePipe) {
 }
 
 TEST_F(RunTest, ACrashInAWorkerIsABugAndNotAnErrorOfTheUser) {
-  EXPECT_THROW(execute_in_worker(request(fake::toy_scene("[toy]\ncrash = true\n")), "", nullptr), WorkerCrash);
+  EXPECT_THROW(execute_in_worker(request(fake::toy_scene("[toy]\ncrash = true\n")), "", nullptr),
+               WorkerCrash);
 }
 
 TEST_F(RunTest, TheCacheKeyDependsOnEverythingThatTheRunDependsOn) {

@@ -19,9 +19,11 @@ TEST_F(SceneFileTest, ReadsWhatTheContractShows) {
   const SceneFile file = load(
       "algorithm = \"toy\"\nmachine = \"fake:plain\"\n"
       "[image]\nwidth = 512\nheight = 256\n"
-      "[camera]\nprojection = \"perspective\"\nfov_y = 40\nposition = [0, 2, 6]\ntarget = [0, 2, 0]\nup = [0, 1, 0]\n"
+      "[camera]\nprojection = \"perspective\"\nfov_y = 40\nposition = [0, 2, 6]\ntarget = [0, 2, 0]\nup = "
+      "[0, 1, 0]\n"
       "[[light]]\ndirection = [-1, -2, -1]\nambient = 0.2\n"
-      "[[object]]\nmesh = \"m/aspen.obj.gz\"\nat = [1, 2, 3]\nrotate = [0, 30, 0]\nscale = 2.0\nunits = \"cm\"\n"
+      "[[object]]\nmesh = \"m/aspen.obj.gz\"\nat = [1, 2, 3]\nrotate = [0, 30, 0]\nscale = 2.0\nunits = "
+      "\"cm\"\n"
       "up_axis = \"z\"\ngroups = { leaf = \"leaves*\", trunk = \"trunk*\" }\n"
       "[[object]]\ntree = \"pine\"\nheight = 3\n"
       "[toy]\nunbounded = \"error\"\nlist = [[1, 2], [3, 4]]\n"
@@ -49,7 +51,8 @@ TEST_F(SceneFileTest, AnUnknownKeyNamesFileLineAndTheNearestKnownOne) {
   EXPECT_EQ("s.toml:3: image.widht: unknown key; did you mean `width`?",
             error("algorithm = \"toy\"\n[image]\nwidht = 3\n"));
   EXPECT_EQ("s.toml:9: lihgt: unknown key; did you mean `light`?", error(fake::toy_scene("[lihgt]\n")));
-  EXPECT_EQ("s.toml:9: object.0.scael: unknown key; did you mean `scale`?", error(fake::toy_scene("scael = 2\n")));
+  EXPECT_EQ("s.toml:9: object.0.scael: unknown key; did you mean `scale`?",
+            error(fake::toy_scene("scael = 2\n")));
 }
 
 TEST_F(SceneFileTest, ImpossibleValuesSayWhatIsAllowed) {
@@ -73,8 +76,10 @@ TEST_F(SceneFileTest, SettingsAddressKeysByTheirPath) {
   EXPECT_EQ(0.5, file.scene.objects[0].scale);
   EXPECT_EQ(9, file.scene.camera.position[2]);
   EXPECT_EQ("mode.kind", file.parameters.at(0).first);
-  EXPECT_EQ("--set: image.widht: unknown key; did you mean `width`?", error(fake::toy_scene(), {"image.widht=9"}));
-  EXPECT_EQ("--set: image.width: must be an integer in 1..16384", error(fake::toy_scene(), {"image.width=wide"}));
+  EXPECT_EQ("--set: image.widht: unknown key; did you mean `width`?",
+            error(fake::toy_scene(), {"image.widht=9"}));
+  EXPECT_EQ("--set: image.width: must be an integer in 1..16384",
+            error(fake::toy_scene(), {"image.width=wide"}));
 }
 
 TEST_F(SceneFileTest, PathsBelongToTheFileTheyStandIn) {
@@ -92,15 +97,18 @@ TEST_F(SceneFileTest, LaterKeysStandAboveIncludedOnes) {
 }
 
 TEST_F(SceneFileTest, MissingAndCyclicIncludesNameTheChain) {
-  EXPECT_EQ("s.toml:1: include: there is no file gone.toml: s.toml -> gone.toml", error("include = \"gone.toml\"\n"));
+  EXPECT_EQ("s.toml:1: include: there is no file gone.toml: s.toml -> gone.toml",
+            error("include = \"gone.toml\"\n"));
   write("a.toml", "include = \"s.toml\"\n");
   EXPECT_EQ("a.toml:1: include: the file includes itself: s.toml -> a.toml -> s.toml",
             error("include = \"a.toml\"\n"));
 }
 
 TEST_F(SceneFileTest, AnUnknownNameNamesTheNearestScene) {
-  EXPECT_NE(std::string::npos, error_of([&] { load_scene("toi", {}, catalogue_); }).find("did you mean `toy`?"));
-  EXPECT_EQ("gone.toml: cannot read the file", error_of([&] { load_scene(path("gone.toml"), {}, catalogue_); }));
+  EXPECT_NE(std::string::npos,
+            error_of([&] { load_scene("toi", {}, catalogue_); }).find("did you mean `toy`?"));
+  EXPECT_EQ("gone.toml: cannot read the file",
+            error_of([&] { load_scene(path("gone.toml"), {}, catalogue_); }));
 }
 
 }  // namespace

@@ -28,7 +28,8 @@ TEST(TableRow, NamesOnlyAssumptionsThatMoveItWidestFirst) {
   Interval interval;
   interval.low = 1;
   interval.high = 3;
-  interval.contributions = {{"rate.words_per_s", 1, 3, ""}, {"delay.b_ticks", 1, 2, ""}, {"delay.a_ticks", 1, 1, ""}};
+  interval.contributions = {
+      {"rate.words_per_s", 1, 3, ""}, {"delay.b_ticks", 1, 2, ""}, {"delay.a_ticks", 1, 1, ""}};
   set_interval(r, interval, preset.parameters);
   EXPECT_EQ((std::vector<std::string>{"DEV-004", "DEV-002"}), r.assumptions);
   EXPECT_EQ(2u, r.widened_by.size());

@@ -12,7 +12,8 @@ namespace {
 
 TEST(Workers, ResultsComeInTheOrderOfTheTasks) {
   std::vector<std::function<std::string()>> tasks;
-  for (int i = 0; i < 9; ++i) tasks.push_back([i] { return std::string(static_cast<std::size_t>(i) * 50000, char('a' + i)); });
+  for (int i = 0; i < 9; ++i)
+    tasks.push_back([i] { return std::string(static_cast<std::size_t>(i) * 50000, char('a' + i)); });
   std::size_t finished = 0;
   const auto outcomes = run_in_workers(tasks, 3, [&](std::size_t i, const Outcome& o) {
     ++finished;
