@@ -11,12 +11,12 @@ namespace {
 
 class HalfSpaceJob : public Job {
  public:
-  HalfSpaceJob(const scene::Scene& scene, ProgramImage image, std::uint32_t scratch_words)
-      : prepared_(prepare(scene)), image_(std::move(image)) {
-    check_fits(prepared_, image_, scratch_words, scene.objects[0].source_where);
+  HalfSpaceJob(const scene::Scene& scene, ProgramImage image, const Site& site)
+      : prepared_(prepare(scene)), image_(std::move(image)), site_(site) {
+    check_fits(prepared_, image_, site.scratch_words, scene.objects[0].source_where);
   }
 
-  void run(HostPort& host) override { half_space::run(host, prepared_, image_); }
+  void run(HostPort& host) override { half_space::run(host, prepared_, image_, site_.repeat_field); }
 
   ErrorReport compare(const MachineView& machine) const override {
     DENDRO_CHECK(machine.width == width() && machine.height == height(), "the monitor shows {}x{}",
@@ -72,12 +72,13 @@ class HalfSpaceJob : public Job {
 
   Prepared prepared_;
   ProgramImage image_;
+  Site site_;
 };
 
 }  // namespace
 
-std::unique_ptr<Job> make_job(const scene::Scene& scene, ProgramImage image, std::uint32_t scratch_words) {
-  return std::make_unique<HalfSpaceJob>(scene, std::move(image), scratch_words);
+std::unique_ptr<Job> make_job(const scene::Scene& scene, ProgramImage image, const Site& site) {
+  return std::make_unique<HalfSpaceJob>(scene, std::move(image), site);
 }
 
 }  // namespace dendro::half_space

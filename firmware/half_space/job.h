@@ -2,15 +2,22 @@
 
 #include <memory>
 
-#include "firmware/half_space/host/rds_driver.h"
 #include "firmware/job.h"
+#include "firmware/lib/rds3000/rds_driver.h"
 #include "sim/scene/scene.h"
 
 namespace dendro::half_space {
 
-/// The job that draws `scene` with the microprogram on an RDS-3000 with `scratch_words` of scratchpad. Throws
-/// UserError for everything that prepare() or check_fits() refuse.
-std::unique_ptr<Job> make_job(const scene::Scene& scene, ProgramImage image,
-                              std::uint32_t scratch_words = 8192);
+using lib::ProgramImage;
+
+/// What the host program must know of the RDS-3000 it drives.
+struct Site {
+  std::uint32_t scratch_words = 8192;
+  bool repeat_field = false;  ///< the display shows every line in both fields
+};
+
+/// The job that draws `scene` with the microprogram. Throws UserError for everything that prepare() or check_fits()
+/// refuse.
+std::unique_ptr<Job> make_job(const scene::Scene& scene, ProgramImage image, const Site& site = {});
 
 }  // namespace dendro::half_space

@@ -73,8 +73,11 @@ half_space::ProgramImage program_for(const Source& source, const config::Paramet
 std::unique_ptr<Job> make_half_space(const scene::Scene& scene, const MachineType& type,
                                      const config::ParameterSet& parameters) {
   DENDRO_CHECK(type.name == kHalfSpace.machine, "{}", type.name);
-  const auto scratch = static_cast<std::uint32_t>(integer_of(parameters, "processor.scratch_words"));
-  return half_space::make_job(scene, program_for(kHalfSpace, parameters), scratch);
+  half_space::Site site;
+  site.scratch_words = static_cast<std::uint32_t>(integer_of(parameters, "processor.scratch_words"));
+  const config::Parameter* mode = parameters.find("video.display_mode");
+  site.repeat_field = mode != nullptr && config::to_text(mode->value) == "1";
+  return half_space::make_job(scene, program_for(kHalfSpace, parameters), site);
 }
 
 }  // namespace

@@ -5,7 +5,7 @@
 #include <chrono>
 #include <nlohmann/json.hpp>
 
-#include "firmware/half_space/host/rds_driver.h"
+#include "firmware/lib/rds3000/rds_driver.h"
 #include "firmware/tools/assembler.h"
 #include "firmware/tools/ucode.h"
 #include "sim/base/error.h"
@@ -23,15 +23,36 @@ bool ends_with(const std::string& text, const std::string& end) {
   return text.size() >= end.size() && text.compare(text.size() - end.size(), end.size(), end) == 0;
 }
 
-tools::Ucode load_ucode(const ExecArguments& arguments) {
-  const std::string& path = arguments.program;
-  const std::string text = arguments.text.empty() ? config::read_text({false, path}, {}) : arguments.text;
-  if (!ends_with(path, ".gia")) return tools::read_ucode(text, path);
-  return tools::assemble(text, path).ucode;
+std::int64_t integer_of(const config::ParameterSet& parameters, const std::string& key) {
+  const config::Parameter* p = parameters.find(key);
+  if (p == nullptr || !std::holds_alternative<std::int64_t>(p->value))
+    throw UserError("", 0, key, "this parameter of the machine is missing or no integer");
+  return std::get<std::int64_t>(p->value);
 }
 
-half_space::ProgramImage image_of(const tools::Ucode& ucode, const std::string& name) {
-  half_space::ProgramImage image;
+/// A source is assembled for the machine at hand; a finished program must suit it.
+tools::Ucode load_ucode(const ExecArguments& arguments, const config::ParameterSet& parameters) {
+  const std::string& path = arguments.program;
+  const std::string text = arguments.text.empty() ? config::read_text({false, path}, {}) : arguments.text;
+  const auto multiply_ticks = static_cast<int>(integer_of(parameters, "processor.multiply_ticks"));
+  if (ends_with(path, ".gia")) {
+    tools::AssembleOptions options;
+    options.multiply_ticks = multiply_ticks;
+    options.scratch_words = static_cast<unsigned>(integer_of(parameters, "processor.scratch_words"));
+    return tools::assemble(text, path, options).ucode;
+  }
+  tools::Ucode ucode = tools::read_ucode(text, path);
+  if (ucode.multiply_ticks < multiply_ticks)
+    throw UserError(path, 0, "processor.multiply_ticks",
+                    fmt::format("the program was assembled for products after {} words, the machine takes {}",
+                                ucode.multiply_ticks, multiply_ticks));
+  if (static_cast<std::int64_t>(ucode.words.size()) > integer_of(parameters, "processor.control_store_words"))
+    throw UserError(path, 0, "", fmt::format("{} words do not fit the control store", ucode.words.size()));
+  return ucode;
+}
+
+lib::ProgramImage image_of(const tools::Ucode& ucode, const std::string& name) {
+  lib::ProgramImage image;
   image.name = name;
   image.words = ucode.words;
   image.entry = ucode.entry;
@@ -60,7 +81,7 @@ Prepared prepare(const Catalogue& catalogue, const ExecArguments& arguments) {
       throw UserError("--set", 0, key, "a parameter is one value");
     p.preset.parameters.set(key, value.value, {"--set", 0});
   }
-  p.ucode = load_ucode(arguments);
+  p.ucode = load_ucode(arguments, p.preset.parameters);
   if (p.ucode.machine != p.type->name)
     throw UserError(arguments.program, 0, "",
                     "the program is for " + p.ucode.machine + ", not " + p.type->name);
@@ -79,14 +100,15 @@ Json run_here(const Prepared& p, const ExecArguments& arguments, Progress* progr
   const auto start = std::chrono::steady_clock::now();
   const auto machine = p.type->make(p.preset.parameters, p.level, options);
   if (progress) progress->start_run(arguments.program, machine->clock_hz());
-  const half_space::ProgramImage image = image_of(p.ucode, arguments.program);
+  const lib::ProgramImage image = image_of(p.ucode, arguments.program);
   machine->run([&](HostPort& port) {
     ReportingPort reporting(port, progress);
-    half_space::RdsDriver driver(reporting);
+    lib::RdsDriver driver(reporting);
     reporting.phase("load_program");
     driver.load_program(image);
-    driver.run_to_interrupt(image.entry);
+    driver.start(image.entry);
     reporting.phase("finish");
+    driver.wait();
   });
   RunOutput output;
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();

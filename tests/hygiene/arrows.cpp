@@ -47,7 +47,7 @@ Allowed allowed_in(const std::string& path) {
   if (starts_with(path, "models/machines/")) return allowed_in_machines(path);
   if (starts_with(path, "firmware/tools/")) return {"firmware/tools/", "models/parts/", "sim/base/"};
   if (starts_with(path, "firmware/"))
-    return {first_folders(path, 2), "firmware/job.h", "sim/base/", "sim/scene/", "models/parts/host/host_port.h"};
+    return {first_folders(path, 2), "firmware/lib/", "firmware/job.h", "sim/base/", "sim/scene/", "models/parts/host/host_port.h"};
   if (starts_with(path, "sim/study/")) return {"sim/", "firmware/", "models/parts/", "models/machines/machine.h"};
   return {};
 }

@@ -55,7 +55,7 @@ std::vector<std::uint32_t> look_up_table(const std::vector<Rgb>& shades) {
   return table;
 }
 
-void run(HostPort& host, const Prepared& prepared, const ProgramImage& image) {
+void run(HostPort& host, const Prepared& prepared, const ProgramImage& image, bool repeat_field) {
   RdsDriver driver(host);
   const PlaneProgram& program = prepared.program;
 
@@ -77,10 +77,11 @@ void run(HostPort& host, const Prepared& prepared, const ProgramImage& image) {
   host.phase("load_tables");
   driver.write_look_up_table(look_up_table(program.shades));
   driver.show_byte(kFaceLow);
-  driver.set_viewport(program.width, program.height);
+  driver.set_viewport(program.width, program.height, repeat_field);
 
-  driver.run_to_interrupt(image.entry);
+  driver.start(image.entry);
   host.phase("finish");
+  driver.wait();
 }
 
 }  // namespace dendro::half_space

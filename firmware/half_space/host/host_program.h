@@ -1,9 +1,13 @@
 #pragma once
 
 #include "firmware/half_space/host/prepare.h"
-#include "firmware/half_space/host/rds_driver.h"
+#include "firmware/lib/rds3000/rds_driver.h"
 
 namespace dendro::half_space {
+
+using lib::ProgramImage;
+using lib::RdsDriver;
+using lib::ScratchArea;
 
 /// Throws UserError unless the microprogram has the scratch areas `box`, `params` and `records`, and the
 /// plane records fit between `records` and the end of `scratch_words`. `where` is the scene's.
@@ -14,6 +18,7 @@ void check_fits(const Prepared& prepared, const ProgramImage& image, std::uint32
 std::vector<std::uint32_t> look_up_table(const std::vector<Rgb>& shades);
 
 /// What the VAX does: loads microprogram, planes and tables, lets the processor run passes 0 to 4, and waits.
-void run(HostPort& host, const Prepared& prepared, const ProgramImage& image);
+/// `repeat_field`: see RdsDriver::set_viewport.
+void run(HostPort& host, const Prepared& prepared, const ProgramImage& image, bool repeat_field = false);
 
 }  // namespace dendro::half_space

@@ -132,7 +132,7 @@ TEST(HostProgram, LoadsThenRunsThenWaitsInItsPhases) {
   EXPECT_EQ(machine.log_,
             (std::vector<std::string>{"phase load_program", "dma", "dma", "dma", "phase load_planes", "dma",
                                       "dma", "dma", "phase load_tables", "dma", "dma", "write", "write",
-                                      "write", "command", "command", "wait", "command", "phase finish"}));
+                                      "write", "command", "command", "phase finish", "wait", "command"}));
   EXPECT_EQ(machine.loads_, 1u);
   EXPECT_EQ(machine.flops_, prepared.setup_flops);
 }

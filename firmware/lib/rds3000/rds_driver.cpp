@@ -1,8 +1,8 @@
-#include "firmware/half_space/host/rds_driver.h"
+#include "firmware/lib/rds3000/rds_driver.h"
 
 #include "sim/base/check.h"
 
-namespace dendro::half_space {
+namespace dendro::lib {
 namespace {
 
 // Word addresses [BRL-H, NYU-H]; devices other than image memory take function code 0.
@@ -68,17 +68,21 @@ void RdsDriver::show_byte(unsigned low) {
   host_.write(kLuvoCrossbar, kLuvoStraight, kWordFunction);
 }
 
-void RdsDriver::set_viewport(int width, int height) {
-  const auto size = static_cast<std::uint32_t>(width - 1) | static_cast<std::uint32_t>(height - 1) << 16;
+void RdsDriver::set_viewport(int width, int height, bool repeat_field) {
+  const int lines = repeat_field ? 2 * height : height;
+  const auto size = static_cast<std::uint32_t>(width - 1) | static_cast<std::uint32_t>(lines - 1) << 16;
   host_.write(kFrameBufferController + kViewportSize, size, kWordFunction);
 }
 
-void RdsDriver::run_to_interrupt(std::uint32_t entry) {
+void RdsDriver::start(std::uint32_t entry) {
   host_.write(kProcessorStatus, entry << 16, kWordFunction);
   host_.command(kRun | kReset);
   host_.command(kRun);
+}
+
+void RdsDriver::wait() {
   host_.wait_interrupt();
   host_.command(0);
 }
 
-}  // namespace dendro::half_space
+}  // namespace dendro::lib

@@ -7,7 +7,7 @@
 
 #include "models/parts/host/host_port.h"
 
-namespace dendro::half_space {
+namespace dendro::lib {
 
 /// A named stretch of the scratchpad.
 struct ScratchArea {
@@ -43,14 +43,18 @@ class RdsDriver {
   /// Sends pixel lines low..low+7 to the address bits of all three channels' tables.
   void show_byte(unsigned low);
 
-  /// Makes the monitor show the top left width x height pixels of the lores frame.
-  void set_viewport(int width, int height);
+  /// Makes the monitor show the top left width x height pixels of the lores frame. `repeat_field`: the display mode
+  /// shows every line in both fields, and its viewport counts them twice [BRL-C, mode 1].
+  void set_viewport(int width, int height, bool repeat_field);
 
-  /// Resets the processor to the entry point and lets it run to its completion interrupt.
-  void run_to_interrupt(std::uint32_t entry);
+  /// Resets the processor to the entry point and starts it.
+  void start(std::uint32_t entry);
+
+  /// Waits for the completion interrupt and takes the run bit back.
+  void wait();
 
  private:
   HostPort& host_;
 };
 
-}  // namespace dendro::half_space
+}  // namespace dendro::lib
