@@ -18,8 +18,8 @@ def assumed_parameters():
     """Parameter key to DEV."""
     preset = tomllib.loads((ROOT / "models/machines/rds3000/fg86.toml").read_text())
     return {f"{section}.{name}": entry["source"].removeprefix("ASSUMED ")
-            for section, entries in preset.items() for name, entry in entries.items()
-            if entry["source"].startswith("ASSUMED ")}
+            for section, entries in preset.items() if isinstance(entries, dict)
+            for name, entry in entries.items() if entry["source"].startswith("ASSUMED ")}
 
 
 def effect(key, rows):

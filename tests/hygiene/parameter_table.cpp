@@ -85,16 +85,6 @@ std::string table_of(const std::string& title, const toml::table& preset) {
   return text;
 }
 
-/// The comment at the head of a preset says what it is.
-std::string about(const std::string& text) {
-  std::string words;
-  for (const std::string& line : lines_of(text)) {
-    if (!starts_with(line, "# ")) break;
-    words += (words.empty() ? "" : " ") + line.substr(2);
-  }
-  return words;
-}
-
 }  // namespace
 
 std::vector<std::string> machine_pages(const Repository& repository) {
@@ -116,7 +106,7 @@ std::string with_parameter_table(const Repository& repository, const std::string
     if (!starts_with(path, folder) || !ends_with(path, ".toml")) continue;
     const toml::table preset = toml::parse(text, path);
     const std::string stem = path.substr(folder.size(), path.size() - folder.size() - 5);
-    const std::string table = table_of(fmt::format("Preset `{}`: {}", stem, about(text)), preset);
+    const std::string table = table_of(fmt::format("Preset `{}`: {}", stem, preset["description"].value_or(std::string())), preset);
     (preset.contains("include") ? changes : whole) += table + "\n";
   }
   const auto at = repository.files.find(page);

@@ -4,7 +4,8 @@
 
 namespace dendro::rds3000 {
 
-std::uint32_t Devices::read(std::uint32_t address, unsigned function) const {
+std::uint32_t read_device(const dr64::Core& memory, const video::State& video, std::uint32_t address,
+                          unsigned function) {
   const std::uint32_t a = address & kAddressMask;
   switch (device_at(a)) {
     case Device::Image: return memory.read(a, function);

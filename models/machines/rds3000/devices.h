@@ -9,6 +9,10 @@
 
 namespace dendro::rds3000 {
 
+/// A word of a board other than the processor, as the bus reads it: 0 where nothing answers or can be read.
+std::uint32_t read_device(const dr64::Core& memory, const video::State& video, std::uint32_t address,
+                          unsigned function);
+
 /// The boards on the bus other than the processor: what their words are.
 struct Devices {
   dr64::Core memory;
@@ -16,7 +20,9 @@ struct Devices {
 
   explicit Devices(const Spec& spec) : memory(spec.memory), video(video::power_on(spec.video.mode)) {}
 
-  std::uint32_t read(std::uint32_t address, unsigned function) const;
+  std::uint32_t read(std::uint32_t address, unsigned function) const {
+    return read_device(memory, video, address, function);
+  }
   void write(std::uint32_t address, std::uint32_t data, unsigned function);
 };
 

@@ -19,15 +19,8 @@ Picture picture_of(const video::State& video, const dr64::Core& memory) {
 std::uint32_t peek_at(const ProcessorState& processor, const video::State& video, const dr64::Core& memory,
                       std::uint32_t address, unsigned function) {
   if (on_processor_board(address)) return read_processor_board(processor, address);
-  const std::uint32_t a = address & kAddressMask;
-  switch (device_at(a)) {
-    case Device::Image: return memory.read(a, function);
-    case Device::LookUpTable: return video.lut[a - kLookUpTable];
-    case Device::LuvoCrossbar: return video.luvo_crossbar;
-    case Device::Crossbar: return video.crossbar[a - kCrossbar];
-    case Device::Fbc: return video.fbc[a - kFbc];
-    default: return 0;
-  }
+  if (device_at(address) == Device::Fbc) return video.fbc[(address & kAddressMask) - kFbc];
+  return read_device(memory, video, address, function);
 }
 
 class FunctionMachine : public Machine {

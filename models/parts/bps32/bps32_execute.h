@@ -141,17 +141,20 @@ inline bool carry_in(const ProcessorState& p, const Decoded& d) {
   return d.carry == kCarryZero ? false : d.carry == kCarryOne ? true : (d.carry == kCarryLatched) == p.c;
 }
 
+template <class Result>
+inline void latch_flags(ProcessorState& p, const Result& result) {
+  p.z = result.z;
+  p.n = result.n;
+  p.c = result.c;
+  p.v = result.v;
+}
+
 /// A plain ALU operation: RAM[B] or nothing, flags if latched. Returns Y.
 inline std::uint32_t execute_plain_alu(ProcessorState& p, const Decoded& d, std::uint32_t r, std::uint32_t s,
                                        bool c0) {
   const AluResult result = plain_alu(d.func, r, s, c0);
   if (d.writes_ram) p.ram[d.b] = result.y;
-  if (d.latch) {
-    p.z = result.z;
-    p.n = result.n;
-    p.c = result.c;
-    p.v = result.v;
-  }
+  if (d.latch) latch_flags(p, result);
   return result.y;
 }
 
@@ -162,12 +165,7 @@ inline std::uint32_t execute_any_alu(ProcessorState& p, const Decoded& d, std::u
   if (result.ram_written) p.ram[d.b] = result.y;
   p.q = result.q;
   p.divide_sign = result.divide_sign;
-  if (d.latch) {
-    p.z = result.z;
-    p.n = result.n;
-    p.c = result.c;
-    p.v = result.v;
-  }
+  if (d.latch) latch_flags(p, result);
   return result.y;
 }
 

@@ -25,12 +25,7 @@ void handle(ProcessorState& p, const Decoded& d) {
   const std::uint32_t s = s_source == kSQ ? p.q : s_source == kSBus ? bus : p.ram[d.b];
   const AluResult result = plain_alu(func, r, s, carry_in(p, d));
   if constexpr (writes_ram) p.ram[d.b] = result.y;
-  if constexpr (latch) {
-    p.z = result.z;
-    p.n = result.n;
-    p.c = result.c;
-    p.v = result.v;
-  }
+  if constexpr (latch) latch_flags(p, result);
   if constexpr (writes_y) write_y(p, d, result.y);
 }
 
