@@ -116,11 +116,13 @@ inline void CycleEngine::book_access(bool write, std::int64_t asked, std::int64_
 }
 
 void CycleEngine::change_video(std::uint32_t address, std::int64_t tick) {
-  if (!restarts_raster(address)) return;
+  if (!sets_raster(address)) return;
+  const video::Raster raster = video::raster_of(devices_.video, spec_.video, spec_.memory.fetch_bits);
+  if (raster == raster_.raster) return;
   timing_.settle(tick + 1);
   raster_before_ = raster_;
   raster_from_ = tick;
-  raster_ = {video::raster_of(devices_.video, spec_.video, spec_.memory.fetch_bits), tick * tick_ps()};
+  raster_ = {raster, tick * tick_ps()};
   timing_.set_fetches({raster_.raster, raster_.origin_ps, raster_.origin_ps, tick_ps()});
 }
 
