@@ -190,7 +190,7 @@ void CycleEngine::find_loop() {
     const std::int64_t before = now_;
     while (processor_.running && now_ == before) stride(now_ + 1);
     if (finder.see(at)) {
-      error_ = std::make_exception_ptr(finder.error(options_.tick_limit, mark_names_));
+      error_ = std::make_exception_ptr(finder.error(options_.tick_limit, options_.symbols));
       stopped(now_);
     }
   }
