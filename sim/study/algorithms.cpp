@@ -88,7 +88,9 @@ const std::vector<Algorithm>& algorithms() {
        "trees as intersections of half-spaces, two depth registers a pixel (FG86)",
        {"rds3000"},
        "firmware/half_space",
-       make_half_space},
+       make_half_space,
+       {"planes", "plane_source", "directions", "unbounded", "starting_box", "boxing", "depth_bits",
+        "depth_margin", "depth_range", "steep", "diffuse", "colour", "background"}},
   };
   return list;
 }
