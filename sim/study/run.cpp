@@ -61,7 +61,7 @@ const config::Node* named_node(const config::Node& document, const std::string& 
                     fmt::format("{} (the mesh of {}{})", error.message(), at.file,
                                 at.line > 0 ? fmt::format(":{}", at.line) : ""));
   }
-  throw error;
+  throw;
 }
 
 void check_inputs(const std::vector<PinnedDigest>& inputs) {
