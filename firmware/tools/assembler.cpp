@@ -94,6 +94,44 @@ std::vector<std::string> split_lines(std::string_view text) {
   return lines;
 }
 
+/// The first word that has to wait for a multiplication under way, and how many words; 0: none.
+std::pair<std::size_t, int> first_too_early(const Program& program, const std::vector<std::uint64_t>& words,
+                                            int multiply_ticks) {
+  const std::vector<int> under_way = products_under_way(words, multiply_ticks, true);
+  for (std::size_t i = 0; i < words.size(); ++i) {
+    const bool early = starts_multiply(words[i]) || (reads_product(words[i]) && !program.micros[i].old_product);
+    if (under_way[i] > 0 && early) return {i, under_way[i]};
+  }
+  return {0, 0};
+}
+
+/// Labels of the word that waits stay before the waiting, because every way to it may come too early.
+void insert_waiting(Program& program, std::size_t at, int count) {
+  const auto moves = [&](const Micro& m) { return m.numeric_target || m.verbatim; };
+  if (std::any_of(program.micros.begin(), program.micros.end(), moves))
+    throw SourceError(program.file, program.micros[at].line, program.micros[at].column,
+                      "the product comes too late here, and words cannot be inserted into a program with "
+                      "branches to numbers or literal words");
+  Micro nothing;
+  nothing.line = program.micros[at].line;
+  nothing.column = program.micros[at].column;
+  program.micros.insert(program.micros.begin() + static_cast<std::ptrdiff_t>(at),
+                        static_cast<std::size_t>(count), nothing);
+  for (Label& label : program.labels)
+    if (label.at > static_cast<int>(at)) label.at += count;
+  if (program.entry_label < 0 && program.entry_address > at)
+    program.entry_address += static_cast<std::uint32_t>(count);
+}
+
+void fill_products(Program& program, const std::vector<std::uint32_t>& pool, const AssembleOptions& options) {
+  for (;;) {
+    const auto [at, count] = first_too_early(program, resolve(program, pool), options.multiply_ticks);
+    if (count == 0) return;
+    insert_waiting(program, at, count);
+    check_size(program, kPageWords);
+  }
+}
+
 void check_entry(const Program& program) {
   if (entry_of(program) < program.micros.size()) return;
   throw UserError(program.file, 0, "",
@@ -113,6 +151,8 @@ Assembly assemble(std::string_view source, const std::string& file_name, const A
   const bool full = options.pack == "full" && !program.literal;
   // A program that packing would make fit has to fit a page unpacked, because its branches are followed there
   // first.
+  check_size(program, full ? kPageWords : options.control_words);
+  if (options.fill_products && !program.literal) fill_products(program, pool, options);
   check_size(program, full ? kPageWords : options.control_words);
   a.ucode.words = resolve(program, pool);
   if (!program.literal) check_program(program, a.ucode.words, entry_of(program), options.multiply_ticks);

@@ -48,12 +48,28 @@ constexpr std::string_view kReserved[] = {"const",       "reg",
 
 std::string hex(std::uint64_t value) { return fmt::format("0x{:x}", value); }
 
+/// A file that went through an editor or a mail may end its lines with CR LF; the checksum is over LF.
+std::string with_plain_line_ends(std::string_view text) {
+  std::string plain;
+  plain.reserve(text.size());
+  for (std::size_t i = 0; i < text.size(); ++i)
+    if (text[i] != '\r' || i + 1 == text.size() || text[i + 1] != '\n') plain += text[i];
+  return plain;
+}
+
 /// Reads one line after the other, with errors that name it.
 class Reader {
  public:
   Reader(std::string_view text, const std::string& file) : text_(text), file_(file) {}
 
-  [[noreturn]] void fail(const std::string& message) const { throw UserError(file_, line_, "", message); }
+  [[noreturn]] void fail(const std::string& message) const {
+    std::string shown;
+    for (const char c : message) {
+      const auto byte = static_cast<unsigned char>(c);
+      shown += byte < 0x20 || byte == 0x7F ? fmt::format("\\x{:02x}", byte) : std::string(1, c);
+    }
+    throw UserError(file_, line_, "", shown);
+  }
   std::size_t position() const { return at_; }
 
   /// The fields of the next line, split at single spaces.
@@ -208,7 +224,8 @@ std::string write_ucode(const Ucode& u) {
   return text + "sha256 " + base::sha256(text) + "\n";
 }
 
-Ucode read_ucode(std::string_view text, const std::string& file) {
+Ucode read_ucode(std::string_view given, const std::string& file) {
+  const std::string text = with_plain_line_ends(given);
   Reader reader(text, file);
   Ucode ucode;
   read_header(reader, ucode);
@@ -220,7 +237,7 @@ Ucode read_ucode(std::string_view text, const std::string& file) {
   }
   const std::size_t end = reader.position();
   const std::string sum = reader.value("sha256");
-  if (sum != base::sha256(text.substr(0, end)))
+  if (sum != base::sha256(std::string_view(text).substr(0, end)))
     reader.fail("the checksum does not match: the file is damaged");
   if (reader.position() != text.size()) reader.fail("text after the checksum");
   if (ucode.entry >= words) reader.fail("the entry lies behind the last word");

@@ -5,6 +5,7 @@
 #include "firmware/tools/assembler.h"
 #include "firmware/tools/disassembler.h"
 #include "firmware/tools/ucode.h"
+#include "sim/app/arguments.h"
 #include "sim/app/commands.h"
 #include "sim/base/error.h"
 #include "sim/config/document.h"
@@ -25,6 +26,9 @@ void check_machine(const std::string& machine, const study::Catalogue& catalogue
 }
 
 int assemble(const Options& options) {
+  refuse_same_file("--out", options.out, "the source", options.in);
+  refuse_same_file("--listing", options.listing, "the source", options.in);
+  refuse_same_file("--listing", options.listing, "--out", options.out);
   study::OutputFile out(options.out), listing(options.listing);
   const tools::Assembly assembly =
       tools::assemble(config::read_text({false, options.in}, {}), options.in, options.assemble);
@@ -34,6 +38,7 @@ int assemble(const Options& options) {
 }
 
 int disassemble(const Options& options) {
+  refuse_same_file("--out", options.out, "the program", options.in);
   study::OutputFile out(options.out.empty() ? "-" : options.out);
   const tools::Ucode ucode = tools::read_ucode(config::read_text({false, options.in}, {}), options.in);
   out.commit(tools::disassemble(ucode));
@@ -47,13 +52,16 @@ void add_asm(CLI::App& app, const study::Catalogue& catalogue, Action& action) {
   CLI::App* assembler = app.add_subcommand("asm", "assemble a microprogram");
   assembler->add_option("machine", o->machine, "rds3000")->required();
   assembler->add_option("in", o->in, "source, .gia")->required();
-  assembler->add_option("-o,--out", o->out, ".ucode file; - is standard output")->required();
+  assembler->add_option("-o,--out", o->out, ".ucode file; - is standard output")->required()->check(some_text());
   assembler->add_option("--pack", o->assemble.pack, "none: a line is a word; full: words are merged")
       ->check(CLI::IsMember({"none", "full"}));
   assembler->add_option("--multiply-ticks", o->assemble.multiply_ticks, "latency of the multiplier")
-      ->check(CLI::Range(1, 64));
+      ->check(whole_number(1, 64));
+  assembler->add_flag("--fill-products", o->assemble.fill_products,
+                      "insert words without effect where a product would be taken too early");
   assembler->add_option("--listing", o->listing,
-                        "listing with addresses, words and ticks; - is standard output");
+                        "listing with addresses, words and ticks; - is standard output")
+      ->check(some_text());
   assembler->callback([&, o] {
     action = [&catalogue, o] {
       check_machine(o->machine, catalogue);
@@ -63,7 +71,7 @@ void add_asm(CLI::App& app, const study::Catalogue& catalogue, Action& action) {
   CLI::App* disassembler = app.add_subcommand("disasm", "turn a .ucode file back into a source");
   disassembler->add_option("machine", o->machine, "rds3000")->required();
   disassembler->add_option("in", o->in, ".ucode file")->required();
-  disassembler->add_option("-o,--out", o->out, "source; default: standard output");
+  disassembler->add_option("-o,--out", o->out, "source; default: standard output")->check(some_text());
   disassembler->callback([&, o] {
     action = [&catalogue, o] {
       check_machine(o->machine, catalogue);

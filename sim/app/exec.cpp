@@ -6,6 +6,7 @@
 #include <cstdio>
 #include <memory>
 
+#include "sim/app/arguments.h"
 #include "sim/app/commands.h"
 #include "sim/base/error.h"
 #include "sim/study/run_folder.h"
@@ -24,12 +25,12 @@ std::uint32_t number(const std::string& text, const std::string& whole) {
   std::size_t used = 0;
   unsigned long value = 0;
   try {
-    value = std::stoul(text, &used, 0);
+    if (!text.empty() && text[0] != '-') value = std::stoul(text, &used, 0);
   } catch (const std::exception&) {
     used = 0;
   }
   if (used == 0 || used != text.size() || value > UINT32_MAX)
-    throw UserError("--dump", 0, "", "`" + whole + "` is not ADDRESS:COUNT, as in 16:8 or 0x10:8");
+    throw UserError("--dump", 0, "", "`" + whole + "` is not ADDRESS or ADDRESS:COUNT, as in 16, 16:8 or 0x10:8");
   return static_cast<std::uint32_t>(value);
 }
 
@@ -41,7 +42,10 @@ int execute(const study::Catalogue& catalogue, Options options) {
     const auto colon = dump.find(':');
     const std::string count = colon == std::string::npos ? "1" : dump.substr(colon + 1);
     options.exec.dumps.emplace_back(number(dump.substr(0, colon), dump), number(count, dump));
+    if (options.exec.dumps.back().second == 0)
+      throw UserError("--dump", 0, "", "`" + dump + "` asks for 0 words; at least 1");
   }
+  check_window(options.exec.options);
   study::OutputFile json(options.json);
   study::Progress progress(options.progress);
   const study::ExecOutput output = study::exec_program(catalogue, options.exec, &progress);
@@ -68,19 +72,23 @@ void add_exec(CLI::App& app, const study::Catalogue& catalogue, Action& action) 
   command->add_option("machine", o->exec.machine, "NAME[:PRESET] or FILE.toml")->required();
   command->add_option("program", o->exec.program, ".ucode file, or .gia source")->required();
   command->add_option("args", o->arguments, "arguments of the program, after --");
-  command->add_option("--level", o->exec.level, "function, cycle or clocked");
+  command->add_option("--level", o->exec.level, "function, cycle or clocked")->check(some_text());
   command->add_option("--set", o->exec.settings, "key=value of the machine")->allow_extra_args(false);
   command->add_option("--limit", machine.tick_limit, "ticks the processor may run")
-      ->check(CLI::PositiveNumber);
-  command->add_option("--dump", o->dumps, "ADDRESS:COUNT scratch words to print")->allow_extra_args(false);
-  command->add_option("--json", o->json, "also write the result here; - is standard output");
+      ->check(whole_number(1));
+  command->add_option("--dump", o->dumps, "ADDRESS[:COUNT] scratch words to print; one word without COUNT")->allow_extra_args(false);
+  command->add_option("--json", o->json, "also write the result here; - is standard output")
+      ->check(some_text());
   command->add_option("--progress", o->progress, "auto, on or off")
       ->check(CLI::IsMember({"auto", "on", "off"}));
   command->add_flag("--quiet", o->quiet, "print no summary");
-  command->add_option("--vcd", machine.vcd_file, "waveform file, at --level clocked");
+  command->add_option("--vcd", machine.vcd_file, "waveform file, at --level clocked")->check(some_text());
   command->add_option("--vcd-from", machine.vcd_from, "first tick of the waveform")
-      ->check(CLI::NonNegativeNumber);
-  command->add_option("--vcd-to", machine.vcd_to, "first tick that the waveform no longer shows")->check(CLI::NonNegativeNumber);
+      ->check(whole_number(0))
+      ->needs("--vcd");
+  command->add_option("--vcd-to", machine.vcd_to, "first tick that the waveform no longer shows")
+      ->check(whole_number(0))
+      ->needs("--vcd");
   command->callback(
       [&catalogue, &action, o] { action = [&catalogue, o] { return execute(catalogue, *o); }; });
 }

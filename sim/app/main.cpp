@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cstdio>
 #include <cstdlib>
+#include <filesystem>
 #include <string>
 
 #include "sim/app/commands.h"
@@ -28,9 +29,19 @@ int say(int status, const std::string& text) {
   return status;
 }
 
+/// Standard output that could not be written is an error, whatever the action says.
+int flushed(int status) {
+  if (std::fflush(stdout) == 0 && std::ferror(stdout) == 0) return status;
+  return say(dendro::app::kUserError, "standard output: cannot write: the disk is full or it was closed");
+}
+
 int guarded(const dendro::app::Action& action) {
+  std::error_code gone;
+  const auto folder = std::filesystem::current_path(gone);
+  if (gone || folder.empty())
+    return say(dendro::app::kUserError, "the working directory cannot be used: " + gone.message());
   try {
-    return action();
+    return flushed(action());
   } catch (const dendro::UserError& error) {
     return say(dendro::app::kUserError, error.what());
   } catch (const dendro::study::Interrupted& interrupted) {
@@ -56,6 +67,8 @@ std::string complaint(const CLI::App& app, const CLI::ParseError& error, int arg
   if (app.get_subcommands().empty() && (first.empty() || first[0] != '-'))
     return (first.empty() ? "a command is missing" : first + ": there is no such command") + ": known are " +
            names_of(app);
+  if (app.get_subcommands().empty())
+    return first + ": unknown option (dendro --help says what is allowed)";
   const std::string command =
       app.get_subcommands().empty() ? "" : " " + app.get_subcommands().front()->get_name();
   return std::string(error.what()) + " (dendro" + command + " --help says what is allowed)";

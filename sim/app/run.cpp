@@ -2,6 +2,7 @@
 #include <cstdio>
 #include <memory>
 
+#include "sim/app/arguments.h"
 #include "sim/app/commands.h"
 #include "sim/base/error.h"
 #include "sim/study/cache.h"
@@ -49,6 +50,7 @@ void add_interval(const study::RunRequest& request, int jobs, study::Progress& p
 }
 
 int run(const study::Catalogue& catalogue, Options options) {
+  check_window(options.run.options);
   options.run.options.vcd_units = split_units(options.vcd_units);
   const study::RunRequest request = study::prepare_run(catalogue, options.run);
   if (options.interval && request.level == Level::kFunction)
@@ -67,9 +69,11 @@ int run(const study::Catalogue& catalogue, Options options) {
   folder.write("stats.csv", stats::to_csv(output.object));
   folder.write("summary.txt", summary);
   folder.write("resolved.toml", study::resolved_scene(request, output, folder.path()));
+  // All that can fail for want of space comes before anything is put in place.
+  json.write(object);
   folder.commit();
   if (!options.quiet) std::fputs(summary.c_str(), stdout);
-  json.commit(object);
+  json.commit();
   return kGood;
 }
 
@@ -80,27 +84,35 @@ void add_run(CLI::App& app, const study::Catalogue& catalogue, Action& action) {
   CLI::App* command = app.add_subcommand("run", "draw a scene and say how long the machine took");
   MachineOptions& machine = o->run.options;
   command->add_option("scene", o->run.scene, "built-in scene or scene file")->required();
-  command->add_option("--machine", o->run.machine, "NAME[:PRESET] or FILE.toml; default: the scene's");
+  command->add_option("--machine", o->run.machine, "NAME[:PRESET] or FILE.toml; default: the scene's")
+      ->check(some_text());
   command->add_option("--level", o->run.level,
-                      "function, estimate, cycle or clocked; default: the scene's, else cycle");
+                      "function, estimate, cycle or clocked; default: the scene's, else cycle")
+      ->check(some_text());
   command->add_option("--set", o->run.settings, "key=value of the scene; parameters.* are the machine's")
       ->allow_extra_args(false);
-  command->add_option("--seed", o->run.seed, "of everything random");
+  command->add_option("--seed", o->run.seed, "of everything random")->check(whole_number(0));
   command->add_flag("--interval", o->interval, "propagate the ranges of all assumptions");
-  command->add_option("--out", o->out, "run directory; default: out/SCENE");
-  command->add_option("--json", o->json, "also write the run object here; - is standard output");
+  command->add_option("--out", o->out, "run directory; default: out/SCENE")->check(some_text());
+  command->add_option("--json", o->json, "also write the run object here; - is standard output")
+      ->check(some_text());
   command->add_option("--progress", o->progress, "auto, on or off")
       ->check(CLI::IsMember({"auto", "on", "off"}));
   command->add_flag("--quiet", o->quiet, "print nothing");
-  command->add_option("--jobs", o->jobs, "worker processes of --interval")->check(CLI::Range(1, 1024));
+  command->add_option("--jobs", o->jobs, "worker processes of --interval")->check(whole_number(1, 1024));
   command->add_option("--limit", machine.tick_limit, "ticks the processor may run in one start")
-      ->check(CLI::PositiveNumber);
+      ->check(whole_number(1));
   command->add_flag("--all-units", machine.all_units, "elaborate units that the scene does not use, too");
-  command->add_option("--vcd", machine.vcd_file, "waveform file, at --level clocked");
+  command->add_option("--vcd", machine.vcd_file, "waveform file, at --level clocked")->check(some_text());
   command->add_option("--vcd-from", machine.vcd_from, "first tick of the waveform")
-      ->check(CLI::NonNegativeNumber);
-  command->add_option("--vcd-to", machine.vcd_to, "first tick that the waveform no longer shows")->check(CLI::NonNegativeNumber);
-  command->add_option("--vcd-units", o->vcd_units, "units in the waveform, separated by commas");
+      ->check(whole_number(0))
+      ->needs("--vcd");
+  command->add_option("--vcd-to", machine.vcd_to, "first tick that the waveform no longer shows")
+      ->check(whole_number(0))
+      ->needs("--vcd");
+  command->add_option("--vcd-units", o->vcd_units, "units in the waveform, separated by commas")
+      ->check(some_text())
+      ->needs("--vcd");
   command->callback([&catalogue, &action, o] { action = [&catalogue, o] { return run(catalogue, *o); }; });
 }
 

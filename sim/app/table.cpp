@@ -8,6 +8,7 @@
 #include <memory>
 #include <optional>
 
+#include "sim/app/arguments.h"
 #include "sim/app/commands.h"
 #include "sim/study/run_folder.h"
 
@@ -29,6 +30,10 @@ bool within(const std::vector<study::TableRow>& rows, double tolerance) {
 
 int make(const study::Catalogue& catalogue, const Options& options) {
   const auto plan = study::table_plan(options.key);
+  const study::RunCache cache;
+  study::Progress progress(options.progress);
+  const study::TableContext context = {catalogue, options.table, cache, &progress};
+  study::check_table(options.key, context);
   study::OutputFile json(options.json);
   const bool print = options.json != "-";
   if (print) {
@@ -36,9 +41,7 @@ int make(const study::Catalogue& catalogue, const Options& options) {
     for (const std::string& line : plan) fmt::print("  {}\n", line);
     std::fflush(stdout);
   }
-  const study::RunCache cache;
-  study::Progress progress(options.progress);
-  const auto rows = study::make_table(options.key, {catalogue, options.table, cache, &progress});
+  const auto rows = study::make_table(options.key, context);
   if (print) fmt::print("\n{}", study::table_text(rows));
   json.commit(study::table_json(rows));
   return !options.tolerance || within(rows, *options.tolerance) ? kGood : kOutsideTolerance;
@@ -52,12 +55,13 @@ void add_table(CLI::App& app, const study::Catalogue& catalogue, Action& action)
   CLI::App* command = app.add_subcommand("table", "a paper's timing table beside the simulated one");
   command->add_option("key", o->key, "the paper's key, or all");
   command->add_flag("--full", o->table.full, "sample all assumptions at once, too");
-  command->add_option("--level", o->table.level, "cycle or clocked");
+  command->add_option("--level", o->table.level, "cycle or clocked")->check(some_text());
   command->add_option("--set", o->table.settings, "key=value, applied to every run")->allow_extra_args(false);
-  command->add_option("--jobs", o->table.jobs, "worker processes")->check(CLI::Range(1, 1024));
+  command->add_option("--jobs", o->table.jobs, "worker processes")->check(whole_number(1, 1024));
   command->add_option("--tolerance", o->tolerance, "exit 3 when a ratio is further than this from 1")
-      ->check(CLI::NonNegativeNumber);
-  command->add_option("--json", o->json, "also write the rows here; - is standard output");
+      ->check(finite_number(0, false));
+  command->add_option("--json", o->json, "also write the rows here; - is standard output")
+      ->check(some_text());
   command->add_option("--progress", o->progress, "auto, on or off")
       ->check(CLI::IsMember({"auto", "on", "off"}));
   command->callback([&catalogue, &action, o] { action = [&catalogue, o] { return make(catalogue, *o); }; });

@@ -68,6 +68,8 @@ void write_exr(const std::string& path, int width, int height, const std::vector
     for (std::size_t i = 0; i < pixels; ++i) interleaved[i * count + c] = channels[c].second[i];
   }
   spec.attribute("compression", "zip");
+  // Without one the writer puts the time of day into the file, and no two runs would be alike.
+  spec.attribute("DateTime", "");
   write_image(path, spec, OIIO::TypeDesc::FLOAT, interleaved.data());
 }
 

@@ -12,6 +12,17 @@ Json or_null(const std::optional<T>& value) {
   return value ? Json(*value) : Json(nullptr);
 }
 
+/// A figure of time; at a level without time there is none.
+template <class T>
+Json timed(const RunObject& run, T value) {
+  return run.has_time() ? Json(value) : Json(nullptr);
+}
+
+template <class T>
+T or_zero(const Json& value) {
+  return value.is_null() ? T{} : value.get<T>();
+}
+
 std::optional<double> optional_real(const Json& value) {
   if (value.is_null()) return std::nullopt;
   return value.get<double>();
@@ -96,9 +107,9 @@ std::string to_json(const RunObject& run) {
                     {"preset", run.preset},
                     {"level", run.level},
                     {"seed", run.seed},
-                    {"cycles", run.cycles},
+                    {"cycles", timed(run, run.cycles)},
                     {"clock_hz", run.clock_hz},
-                    {"seconds", run.seconds},
+                    {"seconds", timed(run, run.seconds)},
                     {"seconds_low", or_null(run.seconds_low)},
                     {"seconds_high", or_null(run.seconds_high)},
                     {"contributions", contributions_json(run)},
@@ -118,7 +129,8 @@ std::string to_json(const RunObject& run) {
                       {"peak_rss_bytes", run.host.peak_rss_bytes}}},
                     {"elaborated", run.elaborated},
                     {"assumptions", run.assumptions},
-                    {"machine_cycles", run.machine_cycles},
+                    {"notes", run.notes},
+                    {"machine_cycles", timed(run, run.machine_cycles)},
                     {"instructions", run.instructions},
                     {"time_dependent", run.time_dependent},
                     {"facts", object_of(run.facts)},
@@ -136,9 +148,9 @@ RunObject from_json(const std::string& text) {
   run.preset = in.at("preset").get<std::string>();
   run.level = in.at("level").get<std::string>();
   run.seed = in.at("seed").get<std::uint64_t>();
-  run.cycles = in.at("cycles").get<std::int64_t>();
+  run.cycles = or_zero<std::int64_t>(in.at("cycles"));
   run.clock_hz = in.at("clock_hz").get<double>();
-  run.seconds = in.at("seconds").get<double>();
+  run.seconds = or_zero<double>(in.at("seconds"));
   run.seconds_low = optional_real(in.at("seconds_low"));
   run.seconds_high = optional_real(in.at("seconds_high"));
   for (const Json& c : in.at("contributions"))
@@ -159,7 +171,8 @@ RunObject from_json(const std::string& text) {
               host.at("real_time_factor").get<double>(), host.at("peak_rss_bytes").get<std::int64_t>()};
   run.elaborated = in.at("elaborated").get<std::vector<std::string>>();
   run.assumptions = in.at("assumptions").get<std::vector<std::string>>();
-  run.machine_cycles = in.at("machine_cycles").get<std::int64_t>();
+  run.machine_cycles = or_zero<std::int64_t>(in.at("machine_cycles"));
+  run.notes = in.at("notes").get<std::vector<std::string>>();
   run.instructions = in.at("instructions").get<std::uint64_t>();
   run.time_dependent = in.at("time_dependent").get<bool>();
   run.facts = pairs_of<double>(in.at("facts"));

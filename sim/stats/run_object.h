@@ -56,7 +56,7 @@ struct Contribution {
 struct RunObject {
   std::string scene, algorithm, machine, preset, level;
   std::uint64_t seed = 1;
-  std::int64_t cycles = 0;  ///< 0 at `function`
+  std::int64_t cycles = 0;  ///< 0 at `function`, where there is no time: null in JSON, as are the seconds
   double clock_hz = 0;
   double seconds = 0;
   std::optional<double> seconds_low, seconds_high;
@@ -69,12 +69,15 @@ struct RunObject {
   HostInfo host;
   std::vector<std::string> elaborated;
   std::vector<std::string> assumptions;
+  std::vector<std::string> notes;  ///< what a reader of the run should know, a line each
   std::int64_t machine_cycles = 0;
   std::uint64_t instructions = 0;
   bool time_dependent = false;
   std::vector<std::pair<std::string, double>> facts;
   std::vector<std::pair<std::string, std::int64_t>> marks;  ///< name, tick
   std::vector<std::pair<std::string, std::uint64_t>> executions;
+
+  bool has_time() const { return level != "function"; }
 };
 
 /// Stops dendro when the counters contradict themselves: a unit whose busy, stall and idle ticks do not add

@@ -102,12 +102,12 @@ std::string to_csv(const RunObject& run) {
   add("preset", run.preset);
   add("level", run.level);
   add("seed", std::to_string(run.seed));
-  add("cycles", std::to_string(run.cycles));
+  add("cycles", run.has_time() ? std::to_string(run.cycles) : "");
   add("clock_hz", fmt::format("{}", run.clock_hz));
-  add("seconds", fmt::format("{}", run.seconds));
+  add("seconds", run.has_time() ? fmt::format("{}", run.seconds) : "");
   add("seconds_low", run.seconds_low ? fmt::format("{}", *run.seconds_low) : "");
   add("seconds_high", run.seconds_high ? fmt::format("{}", *run.seconds_high) : "");
-  add("machine_cycles", std::to_string(run.machine_cycles));
+  add("machine_cycles", run.has_time() ? std::to_string(run.machine_cycles) : "");
   add("instructions", std::to_string(run.instructions));
   for (const PhaseRow& p : run.phases) add("phase." + p.name + ".cycles", std::to_string(p.cycles));
   for (const UnitRow& unit : run.units)
@@ -126,6 +126,7 @@ std::string to_summary(const RunObject& run) {
   text += time_lines(run) + interval_lines(run) + unit_lines(run);
   text += "  " + error_line(run.error) + "\n";
   if (!run.assumptions.empty()) text += fmt::format("  rests on {}\n", fmt::join(run.assumptions, ", "));
+  for (const std::string& note : run.notes) text += "  note: " + note + "\n";
   text += fmt::format("  host {:.3g} s, {:.3g} million ticks a second, {:.3g} times real time, {} MB\n",
                       run.host.seconds, run.host.simulated_hz / 1e6, run.host.real_time_factor,
                       run.host.peak_rss_bytes / 1000000);

@@ -44,6 +44,36 @@ std::string text_of(const config::ParameterSet& parameters, const std::string& k
   return std::get<std::string>(p->value);
 }
 
+bool assembles(const Source& source, const tools::AssembleOptions& options) {
+  try {
+    assemble_source(source, options);
+    return true;
+  } catch (const UserError&) {
+    return false;
+  }
+}
+
+/// A shipped program assembles for a machine as documented, so the parameter whose usual value would make it
+/// assemble again is the one to blame.
+[[noreturn]] void blame_parameter(const Source& source, const config::ParameterSet& parameters,
+                                  const tools::AssembleOptions& options, const UserError& error) {
+  const tools::AssembleOptions usual;
+  tools::AssembleOptions scratch = options, multiply = options, control = options;
+  scratch.scratch_words = usual.scratch_words;
+  multiply.multiply_ticks = usual.multiply_ticks;
+  control.control_words = usual.control_words;
+  for (const auto& [key, changed] : {std::pair("processor.scratch_words", scratch),
+                                     {"processor.multiply_ticks", multiply},
+                                     {"processor.control_store_words", control}}) {
+    if (!assembles(source, changed)) continue;
+    const config::Where where = parameters.find(key)->where;
+    throw UserError(where.file, where.line, key,
+                    std::string("the firmware ") + source.name +
+                        " cannot run on this machine: " + error.message());
+  }
+  throw;
+}
+
 tools::Ucode assemble_for(const Source& source, const config::ParameterSet& parameters) {
   tools::AssembleOptions options;
   options.pack = text_of(parameters, "microcode.pack");
@@ -52,7 +82,12 @@ tools::Ucode assemble_for(const Source& source, const config::ParameterSet& para
   options.scratch_words = static_cast<unsigned>(integer_of(parameters, "processor.scratch_words"));
   options.control_words =
       static_cast<unsigned>(std::min(page, integer_of(parameters, "processor.control_store_words")));
-  return assemble_source(source, options).ucode;
+  options.fill_products = true;
+  try {
+    return assemble_source(source, options).ucode;
+  } catch (const UserError& error) {
+    blame_parameter(source, parameters, options, error);
+  }
 }
 
 /// The program is assembled for the machine at hand: its latencies and sizes are parameters, and so is how
@@ -88,7 +123,9 @@ const std::vector<Algorithm>& algorithms() {
        "trees as intersections of half-spaces, two depth registers a pixel (FG86)",
        {"rds3000"},
        "firmware/half_space",
-       make_half_space},
+       make_half_space,
+       {"planes", "plane_source", "directions", "unbounded", "starting_box", "boxing", "depth_bits",
+        "depth_margin", "depth_range", "steep", "diffuse", "colour", "background"}},
   };
   return list;
 }

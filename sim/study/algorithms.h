@@ -22,6 +22,7 @@ struct Algorithm {
   /// Prepares a scene for a machine. Throws UserError for what the algorithm or its firmware cannot do.
   std::function<std::unique_ptr<Job>(const scene::Scene&, const MachineType&, const config::ParameterSet&)>
       make;
+  std::vector<std::string> option_keys = {};  ///< every key that its job reads from its own table
 };
 
 /// The one list of algorithms.

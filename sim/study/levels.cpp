@@ -107,9 +107,10 @@ std::string levels_json(const std::vector<LevelRow>& rows) {
       json["skipped"] = *row.skipped;
     } else {
       json["host_seconds"] = row.host_seconds;
-      json["cycles"] = row.cycles;
-      json["cycle_error"] = row.cycle_error;
-      json["interval"] = {row.cycles, row.cycles};
+      const bool timed = row.level != level_name(Level::kFunction);
+      json["cycles"] = timed ? Json(row.cycles) : Json(nullptr);
+      json["cycle_error"] = timed ? Json(row.cycle_error) : Json(nullptr);
+      json["interval"] = timed ? Json({row.cycles, row.cycles}) : Json(nullptr);
       json["image_psnr_db"] = row.image_psnr_db ? Json(*row.image_psnr_db) : Json(nullptr);
       json["different_pixels"] = row.different_pixels;
       json["speedup_over_clocked"] =

@@ -39,11 +39,12 @@ void Progress::show(const std::string& text) {
   std::fflush(stderr);
 }
 
-void Progress::tick(std::int64_t tick) {
+void Progress::tick(std::int64_t tick, const std::function<std::string()>& machine_phase) {
   if (!due()) return;
+  const std::string own = machine_phase && phase_ == kMachine ? machine_phase() : "";
   const double host = seconds_since(started_);
   const double rate = host > 0 ? static_cast<double>(tick) / host : 0;
-  show(fmt::format("{}: {}, {} simulated, {:.3g} million ticks a second", name_, phase_,
+  show(fmt::format("{}: {}, {} simulated, {:.3g} million ticks a second", name_, own.empty() ? phase_ : own,
                    clock_hz_ > 0 ? stats::readable_seconds(static_cast<double>(tick) / clock_hz_) : "",
                    rate / 1e6));
 }
@@ -65,7 +66,7 @@ void Progress::clear() {
 }
 
 void ReportingPort::wait_interrupt() {
-  if (progress_) progress_->phase("machine");
+  if (progress_) progress_->machine_runs();
   port_.wait_interrupt();
 }
 

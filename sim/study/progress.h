@@ -2,6 +2,7 @@
 
 #include <chrono>
 #include <cstdint>
+#include <functional>
 #include <string>
 
 #include "models/parts/host/host_port.h"
@@ -18,13 +19,19 @@ class Progress {
   /// The clock of the run that is shown from here on.
   void start_run(const std::string& name, double clock_hz);
   void phase(const std::string& name) { phase_ = name; }
-  void tick(std::int64_t tick);
+  /// The host waits: the machine's own phases are shown until the host begins one.
+  void machine_runs() { phase_ = kMachine; }
+  /// `machine_phase` is asked only when the line is due; what it answers stands for the phase while the host
+  /// waits for its machine, unless it is empty.
+  void tick(std::int64_t tick, const std::function<std::string()>& machine_phase = {});
   /// `done` of `total` runs are finished.
   void runs(const std::string& name, std::size_t done, std::size_t total);
   /// Removes the line.
   void clear();
 
  private:
+  static constexpr const char* kMachine = "machine";
+
   bool due();
   void show(const std::string& text);
 

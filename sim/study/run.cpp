@@ -28,8 +28,40 @@ void apply_parameters(const SceneFile& file, config::ParameterSet& parameters) {
   for (const auto& [key, node] : file.parameters)
     if (node.kind == config::Node::Kind::kTable)
       config::replace(parameters, config::read_parameter(key, node));
-  for (const auto& [key, node] : file.parameters)
-    if (node.kind == config::Node::Kind::kValue) parameters.set(key, node.value, node.where);
+  const auto set_values = [&](bool only_unknown) {
+    for (const auto& [key, node] : file.parameters)
+      if (node.kind == config::Node::Kind::kValue && (!only_unknown || parameters.find(key) == nullptr))
+        parameters.set(key, node.value, node.where);
+  };
+  // A misspelt parameter is found before values are looked at.
+  set_values(true);
+  set_values(false);
+}
+
+/// The node that a key of an error message names, or nullptr.
+const config::Node* named_node(const config::Node& document, const std::string& key) {
+  const config::Node* at = &document;
+  for (std::size_t from = 0; at != nullptr && from <= key.size();) {
+    const std::size_t dot = std::min(key.find('.', from), key.size());
+    at = at->member(key.substr(from, dot - from));
+    from = dot + 1;
+  }
+  return at;
+}
+
+/// What a job says is wrong, blamed on the line or the --set that said it; a mesh that is wrong is named with
+/// the place that asked for it.
+[[noreturn]] void blame(const UserError& error, const SceneFile& file) {
+  if (const config::Node* node = named_node(file.document, error.key()); node && !error.key().empty())
+    throw UserError(node->where.file, node->where.line, error.key(), error.message());
+  for (const scene::Object& object : file.scene.objects) {
+    if (object.mesh.empty() || error.file() != object.mesh) continue;
+    const scene::Where& at = object.source_where;
+    throw UserError(error.file(), error.line(), error.key(),
+                    fmt::format("{} (the mesh of {}{})", error.message(), at.file,
+                                at.line > 0 ? fmt::format(":{}", at.line) : ""));
+  }
+  throw;
 }
 
 void check_inputs(const std::vector<PinnedDigest>& inputs) {
@@ -56,7 +88,29 @@ void check_firmware(const std::vector<PinnedDigest>& pins, const Job& job) {
   }
 }
 
-MachineOptions machine_options(const RunRequest& request, const Job& job, Progress* progress) {
+std::unique_ptr<Job> make_job(const RunRequest& request) {
+  // The machine checks its parameters before a program is assembled for it, so that the parameter is blamed.
+  request.type->make(request.preset.parameters, Level::kFunction, {});
+  try {
+    auto job = request.algorithm->make(request.file.scene, *request.type, request.preset.parameters);
+    check_firmware(request.file.firmware, *job);
+    return job;
+  } catch (const UserError& error) {
+    blame(error, request.file);
+  }
+}
+
+/// The machine's own phase: the one of the last mark passed.
+std::string phase_of(const Machine& machine) {
+  const std::vector<MarkEvent> marks = machine.marks();
+  for (auto mark = marks.rbegin(); mark != marks.rend(); ++mark)
+    if (starts_with(mark->name, "phase_")) return mark->name.substr(6);
+  return "";
+}
+
+/// `machine` is asked for its phase while it runs; it may still be empty when this is called.
+MachineOptions machine_options(const RunRequest& request, const Job& job, Progress* progress,
+                               const std::unique_ptr<Machine>& machine) {
   MachineOptions options = request.options;
   if (options.tick_limit == 0) options.tick_limit = kDefaultTickLimit;
   for (const FirmwareImage& image : job.firmware()) {
@@ -65,7 +119,9 @@ MachineOptions machine_options(const RunRequest& request, const Job& job, Progre
     for (const auto& [name, address] : image.symbols) options.symbols[address] = name;
   }
   if (progress && progress->enabled())
-    options.progress = [progress](std::int64_t tick) { progress->tick(tick); };
+    options.progress = [progress, &machine](std::int64_t tick) {
+      progress->tick(tick, [&machine] { return phase_of(*machine); });
+    };
   return options;
 }
 
@@ -97,6 +153,8 @@ stats::RunObject describe(const RunRequest& request) {
   object.seed = file.scene.seed;
   const auto assumptions = request.preset.parameters.assumptions();
   object.assumptions.assign(assumptions.begin(), assumptions.end());
+  if (!file.build.empty() && file.build != executable_digest())
+    object.notes.push_back("resolved by another build of dendro");
   return object;
 }
 
@@ -142,13 +200,13 @@ void add_picture(const Machine& machine, const Job& job, const std::string& fold
 
 }  // namespace
 
-Level level_of(const std::string& name, const MachineType& type) {
+Level level_of(const std::string& name, const MachineType& type, const config::Where& where) {
   std::string known;
   for (const Level level : type.levels) {
     if (name == level_name(level)) return level;
     known += (known.empty() ? "" : ", ") + std::string(level_name(level));
   }
-  throw UserError("--level", 0, "",
+  throw UserError(where.file, where.line, where.file == "--level" ? "" : "level",
                   fmt::format("{} has no level `{}`: known are {}", type.name, name, known));
 }
 
@@ -180,8 +238,9 @@ RunRequest prepare_run(const Catalogue& catalogue, const RunArguments& arguments
                                 file.scene.algorithm, list));
   }
   apply_parameters(file, request.preset.parameters);
-  const std::string level = !arguments.level.empty() ? arguments.level : file.level.value_or("cycle");
-  request.level = level_of(level, *request.type);
+  request.level = !arguments.level.empty()
+                      ? level_of(arguments.level, *request.type)
+                      : level_of(file.level.value_or("cycle"), *request.type, file.level_where);
   request.options = arguments.options;
   if (!request.options.vcd_file.empty() && request.level != Level::kClocked)
     throw UserError("--vcd", 0, "", "waveforms exist at --level clocked only");
@@ -196,11 +255,10 @@ std::map<std::uint32_t, std::string> marked_words(const std::map<std::string, st
   return marks;
 }
 
+void check_run(const RunRequest& request) { make_job(request); }
+
 RunOutput execute(const RunRequest& request, const std::string& folder, Progress* progress) {
-  // The machine checks its parameters before a program is assembled for it, so that the parameter is blamed.
-  request.type->make(request.preset.parameters, Level::kFunction, {});
-  const auto job = request.algorithm->make(request.file.scene, *request.type, request.preset.parameters);
-  check_firmware(request.file.firmware, *job);
+  const auto job = make_job(request);
   RunOutput output;
   output.object = describe(request);
   output.object.facts = job->facts();
@@ -209,8 +267,9 @@ RunOutput execute(const RunRequest& request, const std::string& folder, Progress
   for (const FirmwareImage& image : job->firmware()) output.firmware.emplace_back(image.name, image.sha256);
 
   const auto start = std::chrono::steady_clock::now();
-  const auto machine =
-      request.type->make(request.preset.parameters, request.level, machine_options(request, *job, progress));
+  std::unique_ptr<Machine> machine;
+  machine = request.type->make(request.preset.parameters, request.level,
+                               machine_options(request, *job, progress, machine));
   if (progress) progress->start_run(request.file.scene.name, machine->clock_hz());
   machine->run([&](HostPort& port) {
     ReportingPort reporting(port, progress);

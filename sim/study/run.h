@@ -50,8 +50,12 @@ constexpr std::int64_t kDefaultTickLimit = 10'000'000'000;
 /// Loads scene and machine. Throws UserError for everything that is wrong before a run starts.
 RunRequest prepare_run(const Catalogue& catalogue, const RunArguments& arguments);
 
-/// The level named, if the machine has it. Throws UserError at --level.
-Level level_of(const std::string& name, const MachineType& type);
+/// The level named, if the machine has it. Throws UserError at `where`.
+Level level_of(const std::string& name, const MachineType& type, const config::Where& where = {"--level", 0});
+
+/// Prepares the scene for its machine and throws UserError for all that a run would refuse. Throws away what it
+/// made; no SystemC.
+void check_run(const RunRequest& request);
 
 /// One run in this process; pictures are written into `folder` unless it is empty. At levels with time this
 /// elaborates SystemC: once per process. Throws UserError.

@@ -94,8 +94,8 @@ OutputFile::OutputFile(const std::string& path) : path_(path) {
   std::error_code error;
   const auto status = fs::status(path_, error);
   if (fs::is_directory(status)) cannot_write(path_, "it is a folder");
-  if (fs::exists(status) && !fs::is_regular_file(status)) return;
   if (fs::exists(status) && ::access(path_.c_str(), W_OK) != 0) cannot_write(path_, "permission denied");
+  if (fs::exists(status) && !fs::is_regular_file(status)) return;
   work_ = fmt::format("{}.partial-{}", path_, ::getpid());
   std::ofstream out(work_);
   if (!out) {
@@ -109,15 +109,18 @@ OutputFile::~OutputFile() {
   if (!work_.empty()) fs::remove(work_, ignored);
 }
 
-void OutputFile::commit(const std::string& text) {
-  if (path_.empty()) return;
+void OutputFile::write(const std::string& text) {
+  if (path_ == "-")
+    standard_output_ = text;
+  else if (!path_.empty())
+    write_file(work_.empty() ? path_ : work_, text, path_);
+}
+
+void OutputFile::commit() {
   if (path_ == "-") {
-    std::fwrite(text.data(), 1, text.size(), stdout);
+    std::fwrite(standard_output_.data(), 1, standard_output_.size(), stdout);
     std::fflush(stdout);
-  } else if (work_.empty()) {
-    write_file(path_, text, path_);
-  } else {
-    write_file(work_, text, path_);
+  } else if (!work_.empty()) {
     rename_over(work_, path_);
     work_.clear();
   }

@@ -40,10 +40,16 @@ class OutputFile {
   OutputFile(const OutputFile&) = delete;
   OutputFile& operator=(const OutputFile&) = delete;
 
-  void commit(const std::string& text);
+  /// Writes the text; a regular file takes its place at commit() only, standard output gets it then.
+  void write(const std::string& text);
+  void commit();
+  void commit(const std::string& text) {
+    write(text);
+    commit();
+  }
 
  private:
-  std::string path_, work_;
+  std::string path_, work_, standard_output_;
 };
 
 }  // namespace dendro::study

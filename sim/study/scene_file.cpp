@@ -9,6 +9,7 @@
 #include "sim/base/error.h"
 #include "sim/config/nearest.h"
 #include "sim/config/table_reader.h"
+#include "sim/study/scene_keys.h"
 #include "sim/study/scene_objects.h"
 
 namespace dendro::study {
@@ -183,18 +184,28 @@ std::string read_algorithm(TableReader& root, const Catalogue& catalogue) {
   return name;
 }
 
+std::string read_build(TableReader& root) {
+  const Node* table = root.table("build");
+  if (table == nullptr) return "";
+  TableReader reader(*table, "build");
+  reader.text("compiler", "");
+  return reader.text("dendro", "");
+}
+
 void interpret(SceneFile& file, const Catalogue& catalogue) {
+  check_keys(file.document, catalogue);
   TableReader root(file.document, "");
   scene::Scene& s = file.scene;
   root.node("description");
-  root.node("build");
+  file.build = read_build(root);
   s.name = root.text("name", s.name);
   s.algorithm = read_algorithm(root, catalogue);
   s.machine = root.text("machine", catalogue.algorithm(s.algorithm)->machines.front());
   file.machine_where = root.where("machine");
   file.preset_label = root.text("preset", "");
   if (root.has("level"))
-    file.level = root.choice("level", "cycle", {"function", "estimate", "cycle", "clocked"});
+    file.level = root.text("level", "");
+  file.level_where = root.where("level");
   s.seed = static_cast<std::uint64_t>(root.integer("seed", 1, 0, INT64_MAX));
   s.image = read_image(root);
   s.camera = read_camera(root);

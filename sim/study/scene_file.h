@@ -24,6 +24,8 @@ struct SceneFile {
   config::Where machine_where;
   std::string preset_label;          ///< the preset's name in reports, when the file says so
   std::optional<std::string> level;  ///< the file's own
+  config::Where level_where;
+  std::string build;  ///< digest of the dendro that resolved the scene, or empty
   std::vector<std::pair<std::string, config::Node>>
       parameters;  ///< machine parameters: plain values and whole entries
   std::vector<PinnedDigest> inputs;

@@ -91,6 +91,10 @@ std::vector<TableRow> make_table(const std::string& key, const TableContext& con
   return rows;
 }
 
+void check_table(const std::string& key, const TableContext& context) {
+  for (const PaperTable* table : tables_for(key)) table->check(context);
+}
+
 std::vector<std::string> table_plan(const std::string& key) {
   std::vector<std::string> plan;
   for (const PaperTable* table : tables_for(key))

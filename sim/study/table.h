@@ -46,12 +46,16 @@ struct PaperTable {
   std::string key;                ///< "FG86"
   std::vector<std::string> plan;  ///< what will be run, one line each
   std::function<std::vector<TableRow>(const TableContext&)> make;
+  std::function<void(const TableContext&)> check;  ///< throws UserError for options that make() would refuse
 };
 
 const std::vector<PaperTable>& paper_tables();
 
 /// Rows of the paper with this key, or of all. Throws UserError for an unknown key.
 std::vector<TableRow> make_table(const std::string& key, const TableContext& context);
+
+/// Throws UserError for all that make_table() would refuse, without running anything.
+void check_table(const std::string& key, const TableContext& context);
 
 /// The plan for a key. Throws UserError for an unknown key.
 std::vector<std::string> table_plan(const std::string& key);

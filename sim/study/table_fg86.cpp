@@ -57,17 +57,22 @@ struct Propagated {
   std::vector<Interval> intervals;
 };
 
-Propagated propagate_scene(const TableContext& context, const std::vector<std::string>& settings,
-                           const std::vector<Metric>& metrics, const std::string& name) {
+RunRequest timed_request(const TableContext& context, const std::vector<std::string>& settings) {
   RunArguments arguments;
   arguments.scene = "icosahedron";
   arguments.level = context.options.level;
   arguments.settings = context.options.settings;
   arguments.settings.insert(arguments.settings.end(), settings.begin(), settings.end());
-  Propagated p;
-  p.request = prepare_run(context.catalogue, arguments);
-  if (p.request.level == Level::kFunction)
+  RunRequest request = prepare_run(context.catalogue, arguments);
+  if (request.level == Level::kFunction)
     throw UserError("--level", 0, "", "a table of times needs a level with time: cycle or clocked");
+  return request;
+}
+
+Propagated propagate_scene(const TableContext& context, const std::vector<std::string>& settings,
+                           const std::vector<Metric>& metrics, const std::string& name) {
+  Propagated p;
+  p.request = timed_request(context, settings);
   const RunMaker make = worker_runs(context.options.jobs, context.progress, name, &context.cache);
   p.nominal = from_bytes(make({p.request}).front().value()).object;
   p.intervals = propagate(p.request, p.nominal, metrics, make, context.options.full ? kSamples : 0);
@@ -280,7 +285,8 @@ PaperTable fg86_table() {
            "FG86-A7b, c: the same without boxing, so that every plane scans the whole box",
            "FG86-A3: a microprogram that waits for a product",
            "FG86-A17: the icosahedron at level function, microcode packed and not"},
-          make};
+          make,
+          [](const TableContext& context) { check_run(timed_request(context, {})); }};
 }
 
 }  // namespace dendro::study

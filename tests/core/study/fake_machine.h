@@ -127,7 +127,8 @@ inline Catalogue catalogue() {
                 "fake/algorithm",
                 [](const scene::Scene& scene, const MachineType&, const config::ParameterSet&) {
                   return std::make_unique<FakeJob>(scene);
-                }};
+                },
+                {"crash", "unbounded", "list"}};
   return {{type, other}, {toy}, "/nowhere"};
 }
 

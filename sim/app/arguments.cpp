@@ -1,0 +1,68 @@
+#include "sim/app/arguments.h"
+
+#include <fmt/format.h>
+
+#include <charconv>
+#include <cmath>
+#include <cstdlib>
+#include <filesystem>
+
+#include "sim/base/error.h"
+
+namespace dendro::app {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Where a path leads, existing or not.
+fs::path place_of(const std::string& path) {
+  std::error_code error;
+  const fs::path found = fs::weakly_canonical(fs::absolute(path, error), error);
+  return error ? fs::path(path).lexically_normal() : found;
+}
+
+}  // namespace
+
+CLI::Validator whole_number(std::int64_t lowest, std::int64_t highest) {
+  const auto check = [lowest, highest](std::string& text) -> std::string {
+    std::int64_t value = 0;
+    const char* end = text.data() + text.size();
+    const auto [stop, error] = std::from_chars(text.data(), end, value);
+    if (error == std::errc() && stop == end && value >= lowest && value <= highest) return "";
+    return fmt::format("`{}` is not an integer in {}..{}", text, lowest, highest);
+  };
+  return CLI::Validator(check, "");
+}
+
+CLI::Validator finite_number(double lowest, bool above) {
+  const auto check = [lowest, above](std::string& text) -> std::string {
+    char* end = nullptr;
+    const double value = std::strtod(text.c_str(), &end);
+    const bool whole = !text.empty() && *end == '\0' && std::isfinite(value);
+    if (whole && (above ? value > lowest : value >= lowest)) return "";
+    return fmt::format("`{}` is not a finite number {} {}", text, above ? "above" : "of at least", lowest);
+  };
+  return CLI::Validator(check, "");
+}
+
+CLI::Validator some_text() {
+  return CLI::Validator(
+      [](std::string& text) -> std::string { return text.empty() ? "must not be empty" : ""; }, "");
+}
+
+void check_window(const MachineOptions& options) {
+  if (options.vcd_from >= options.vcd_to)
+    throw UserError("--vcd-to", 0, "",
+                    fmt::format("the waveform's ticks {} up to {} are none; --vcd-from must be the lesser",
+                                options.vcd_from, options.vcd_to));
+}
+
+void refuse_same_file(const std::string& option, const std::string& path, const std::string& other_name,
+                      const std::string& other) {
+  if (path.empty() || path == "-" || other.empty() || other == "-") return;
+  std::error_code error;
+  if (place_of(path) == place_of(other) || (fs::equivalent(path, other, error) && !error))
+    throw UserError(option, 0, "", fmt::format("{} is the file of {}, too", path, other_name));
+}
+
+}  // namespace dendro::app
