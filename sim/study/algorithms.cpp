@@ -134,6 +134,10 @@ tools::Ucode half_space_program(const config::ParameterSet& parameters) {
   return assemble_for(kHalfSpace, parameters);
 }
 
+lib::ProgramImage program_image(const std::string& path, const config::ParameterSet& parameters) {
+  return program_for({path.c_str(), "rds3000", path.c_str()}, parameters);
+}
+
 std::vector<Firmware> firmware_list() {
   std::vector<Firmware> list;
   for (const Source& source : kSources) {

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "firmware/job.h"
+#include "firmware/lib/rds3000/rds_driver.h"
 #include "firmware/tools/ucode.h"
 #include "models/machines/machine.h"
 #include "sim/config/parameters.h"
@@ -30,6 +31,10 @@ const std::vector<Algorithm>& algorithms();
 
 /// The half-space program as it is assembled for a machine with these parameters. Throws UserError.
 tools::Ucode half_space_program(const config::ParameterSet& parameters);
+
+/// The microprogram of an embedded source as it is assembled and loaded for a machine with these parameters. Throws
+/// UserError.
+lib::ProgramImage program_image(const std::string& path, const config::ParameterSet& parameters);
 
 /// A microprogram that ships with dendro, in all its packings.
 struct Firmware {

@@ -55,6 +55,12 @@ void RdsDriver::write_scratch(std::uint32_t address, const std::vector<std::uint
   if (!words.empty()) host_.dma_to(kScratchpad + address, words.data(), words.size(), kWordFunction);
 }
 
+std::vector<std::uint32_t> RdsDriver::read_scratch(std::uint32_t address, std::size_t count) {
+  std::vector<std::uint32_t> words(count);
+  if (count > 0) host_.dma_from(kScratchpad + address, words.data(), count, kWordFunction);
+  return words;
+}
+
 void RdsDriver::write_look_up_table(const std::vector<std::uint32_t>& entries) {
   DENDRO_CHECK(entries.size() == 1024, "{} entries", entries.size());
   host_.dma_to(kLookUpTable, entries.data(), entries.size(), kWordFunction);

@@ -37,6 +37,8 @@ class RdsDriver {
 
   void write_scratch(std::uint32_t address, const std::vector<std::uint32_t>& words);
 
+  std::vector<std::uint32_t> read_scratch(std::uint32_t address, std::size_t count);
+
   /// 1,024 entries: red bits 0-9, green 10-19, blue 20-29.
   void write_look_up_table(const std::vector<std::uint32_t>& entries);
 
