@@ -26,6 +26,7 @@ void add_lists(CLI::App& app, const study::Catalogue& catalogue, Action& action)
 void add_table(CLI::App& app, const study::Catalogue& catalogue, Action& action);
 void add_levels(CLI::App& app, const study::Catalogue& catalogue, Action& action);
 void add_stability(CLI::App& app, const study::Catalogue& catalogue, Action& action);
+void add_sweep(CLI::App& app, const study::Catalogue& catalogue, Action& action);
 void add_exec(CLI::App& app, const study::Catalogue& catalogue, Action& action);
 void add_asm(CLI::App& app, const study::Catalogue& catalogue, Action& action);
 void add_bench(CLI::App& app, const study::Catalogue& catalogue, Action& action);

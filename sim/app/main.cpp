@@ -92,6 +92,7 @@ int main(int argc, char** argv) {
   app::add_table(command, catalogue, action);
   app::add_levels(command, catalogue, action);
   app::add_stability(command, catalogue, action);
+  app::add_sweep(command, catalogue, action);
   app::add_exec(command, catalogue, action);
   app::add_asm(command, catalogue, action);
   app::add_bench(command, catalogue, action);

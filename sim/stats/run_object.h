@@ -93,6 +93,10 @@ RunObject from_json(const std::string& text);
 /// name,value lines: `phase.NAME.cycles`, `UNIT.COUNTER`, and the figures of the run.
 std::string to_csv(const RunObject& run);
 
+/// Every number of a run by its name in to_csv(), phases of one name added up, and `fact.NAME`. An identical picture
+/// has no `error.psnr_db`.
+std::vector<std::pair<std::string, double>> figures(const RunObject& run);
+
 /// The summary that `dendro run` prints.
 std::string to_summary(const RunObject& run);
 

@@ -2,7 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include <unistd.h>
+
 #include <cmath>
+#include <csignal>
 #include <filesystem>
 #include <fstream>
 #include <memory>
@@ -86,6 +89,7 @@ class FakeJob : public Job {
   explicit FakeJob(const scene::Scene& scene) {
     scene::Options options = scene.options;
     crash_ = options.boolean("crash", false);
+    kill_ = options.boolean("kill", false);
     options.finish();
     for (const scene::Object& o : scene.objects)
       if (!o.mesh.empty()) files_.push_back(o.mesh);
@@ -94,6 +98,7 @@ class FakeJob : public Job {
   ErrorReport compare(const MachineView& machine) const override {
     EXPECT_EQ(6, machine.rgb[5]);
     if (crash_) std::abort();
+    if (kill_) ::kill(::getppid(), SIGKILL);
     ErrorReport report;
     report.covered_pixels = 2;
     return report;
@@ -107,6 +112,7 @@ class FakeJob : public Job {
 
  private:
   bool crash_ = false;
+  bool kill_ = false;  // ends the process that the worker works for
   std::vector<std::string> files_;
 };
 

@@ -1,0 +1,58 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "sim/config/document.h"
+
+namespace dendro::study {
+
+/// One thing that a study varies.
+struct StudyAxis {
+  std::string key;    ///< "parameters.processor.tick_ns" or a scene key, as for --set
+  std::string label;  ///< for pictures; the key unless the file says otherwise
+  bool logarithmic = false;
+  std::vector<config::Value> values;
+  config::Where where;
+
+  bool numeric() const;
+};
+
+/// A study file: a scene, a machine, and what is varied. docs/sweep.md describes its keys.
+struct Study {
+  std::string name, description;
+  std::string file;     ///< for messages
+  std::string scene;    ///< built-in name or path
+  std::string machine;  ///< empty: the scene's
+  std::vector<std::string> levels;
+  std::optional<std::uint64_t> seed;
+  std::vector<std::string> settings;  ///< key=value, the same in every run
+  std::vector<StudyAxis> axes;
+  std::vector<std::string> outputs;  ///< figures of stats::figures()
+  config::Where scene_where, machine_where, levels_where, settings_where, outputs_where;
+
+  std::size_t runs() const;
+  /// The value of every axis at a run; levels vary slowest, the last axis fastest.
+  std::vector<std::size_t> place(std::size_t run) const;
+  const std::string& level_of(std::size_t run) const;
+  /// All key=value settings of a run.
+  std::vector<std::string> settings_of(std::size_t run) const;
+};
+
+/// More runs than this want a word from the user.
+constexpr std::size_t kManyRuns = 10000;
+
+struct BuiltInStudy {
+  std::string name, path, description;
+};
+
+/// The studies that ship with dendro, by name.
+std::vector<BuiltInStudy> built_in_studies();
+
+/// Loads a built-in study by name or a file by path and checks its form. Throws UserError with file:line and key; for
+/// more than kManyRuns runs unless `many`.
+Study load_study(const std::string& name, bool many);
+
+}  // namespace dendro::study
