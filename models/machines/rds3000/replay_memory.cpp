@@ -101,7 +101,7 @@ class ClockedMemory : public MemoryTime {
  private:
   void go_to(std::int64_t tick) {
     while (now_ < tick) {
-      if (now_ >= 0) cards_.end_tick();
+      cards_.end_tick();
       ++now_;
       while (next_refresh_ps_ <= now_ * tick_ps_) {
         cards_.queue_refresh();
