@@ -10,6 +10,7 @@
 
 #include "models/parts/host/host_port.h"
 #include "sim/config/parameters.h"
+#include "sim/trace/trace_file.h"
 
 namespace dendro {
 
@@ -55,6 +56,7 @@ struct MachineOptions {
   std::map<std::uint32_t, std::string> symbols;   ///< labels by word index, for messages only
   std::map<std::uint32_t, std::string> counted;   ///< `function` only: microwords whose executions are counted
   std::function<void(std::int64_t tick)> progress;  ///< called now and then with the simulated time; may be empty
+  trace::Writer* recorder = nullptr;  ///< `cycle` only: gathers the records of one boundary
 };
 
 /// One machine at one level of fidelity, for one run.
@@ -91,6 +93,10 @@ struct MachineType {
   std::string folder;    ///< where its presets are embedded: "models/machines/rds3000"
   /// Checks the parameters (throws UserError) and builds the machine.
   std::function<std::unique_ptr<Machine>(const config::ParameterSet&, Level, const MachineOptions&)> make;
+  std::vector<trace::Boundary> boundaries;  ///< where its units can be recorded and replayed
+  /// Drives one unit alone with a trace, whose boundary is among those above. Levels are cycle and clocked. Throws
+  /// UserError for a trace that is wrong in itself. May elaborate SystemC.
+  std::function<trace::ReplayResult(const config::ParameterSet&, Level, trace::Reader&)> replay;
 };
 
 }  // namespace dendro

@@ -28,6 +28,8 @@ void add_levels(CLI::App& app, const study::Catalogue& catalogue, Action& action
 void add_stability(CLI::App& app, const study::Catalogue& catalogue, Action& action);
 void add_sweep(CLI::App& app, const study::Catalogue& catalogue, Action& action);
 void add_exec(CLI::App& app, const study::Catalogue& catalogue, Action& action);
+void add_record(CLI::App& app, const study::Catalogue& catalogue, Action& action);
+void add_replay(CLI::App& app, const study::Catalogue& catalogue, Action& action);
 void add_asm(CLI::App& app, const study::Catalogue& catalogue, Action& action);
 void add_bench(CLI::App& app, const study::Catalogue& catalogue, Action& action);
 

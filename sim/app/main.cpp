@@ -94,6 +94,8 @@ int main(int argc, char** argv) {
   app::add_stability(command, catalogue, action);
   app::add_sweep(command, catalogue, action);
   app::add_exec(command, catalogue, action);
+  app::add_record(command, catalogue, action);
+  app::add_replay(command, catalogue, action);
   app::add_asm(command, catalogue, action);
   app::add_bench(command, catalogue, action);
   try {

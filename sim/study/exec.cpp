@@ -70,17 +70,9 @@ struct Prepared {
 
 Prepared prepare(const Catalogue& catalogue, const ExecArguments& arguments) {
   Prepared p;
-  p.preset = config::load_preset(arguments.machine, catalogue.presets(), {});
+  p.preset = exec_preset(catalogue, arguments);
   p.type = catalogue.machine(p.preset.machine);
   p.level = level_of(arguments.level, *p.type);
-  for (const std::string& setting : arguments.settings) {
-    auto [key, text] = config::split_setting(setting);
-    if (key.compare(0, 11, "parameters.") == 0) key = key.substr(11);
-    const config::Node value = config::parse_setting(text);
-    if (value.kind != config::Node::Kind::kValue)
-      throw UserError("--set", 0, key, "a parameter is one value");
-    p.preset.parameters.set(key, value.value, {"--set", 0});
-  }
   p.ucode = load_ucode(arguments, p.preset.parameters);
   if (p.ucode.machine != p.type->name)
     throw UserError(arguments.program, 0, "",
@@ -131,6 +123,23 @@ Json run_here(const Prepared& p, const ExecArguments& arguments, Progress* progr
 }
 
 }  // namespace
+
+config::Preset exec_preset(const Catalogue& catalogue, const ExecArguments& arguments) {
+  config::Preset preset = config::load_preset(arguments.machine, catalogue.presets(), {});
+  for (const std::string& setting : arguments.settings) {
+    auto [key, text] = config::split_setting(setting);
+    if (key.compare(0, 11, "parameters.") == 0) key = key.substr(11);
+    const config::Node value = config::parse_setting(text);
+    if (value.kind != config::Node::Kind::kValue)
+      throw UserError("--set", 0, key, "a parameter is one value");
+    preset.parameters.set(key, value.value, {"--set", 0});
+  }
+  return preset;
+}
+
+void exec_here(const Catalogue& catalogue, const ExecArguments& arguments, Progress* progress) {
+  run_here(prepare(catalogue, arguments), arguments, progress);
+}
 
 ExecOutput exec_program(const Catalogue& catalogue, const ExecArguments& arguments, Progress* progress) {
   const Prepared prepared = prepare(catalogue, arguments);

@@ -25,6 +25,13 @@ struct ExecOutput {
   std::vector<std::vector<std::uint32_t>> dumps;
 };
 
+/// The machine that a program would run on, with the settings in its parameters. Throws UserError.
+config::Preset exec_preset(const Catalogue& catalogue, const ExecArguments& arguments);
+
+/// Runs the program in this process, for its effect on what `options` points to. At levels with time this elaborates
+/// SystemC: once per process. Throws UserError.
+void exec_here(const Catalogue& catalogue, const ExecArguments& arguments, Progress* progress);
+
 /// Runs the program in a worker process. Throws UserError.
 ExecOutput exec_program(const Catalogue& catalogue, const ExecArguments& arguments, Progress* progress);
 

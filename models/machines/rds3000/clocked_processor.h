@@ -63,6 +63,11 @@ class ClockedProcessor {
   void host_write(std::uint32_t address, std::uint32_t data);
 
   const ProcessorState& state() const { return state_; }
+  /// Replaces the state, memories of the same sizes included; nothing holds the processor.
+  void load(const ProcessorState& state) {
+    state_ = state;
+    for (Word& word : words_) word.decoded = false;
+  }
   void set_interrupt(bool up) { state_.interrupt = up; }
   std::uint32_t word_index() const {
     const std::uint32_t index = state_.page * bps32::kPageWords + state_.pc;

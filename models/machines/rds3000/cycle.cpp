@@ -52,6 +52,24 @@ struct CyclePort {
   }
 };
 
+/// The same, telling a recorder; all accesses go the long way.
+struct RecordingPort : CyclePort {
+  void start_read(std::uint32_t address, unsigned function) {
+    const std::int64_t asked = std::max(engine.now_ + engine.spec_.bus.arbitration_ticks, engine.bus_free_);
+    const std::int64_t granted = engine.start_access(false, address, function);
+    const std::uint32_t word = engine.devices_.read(address, function);
+    engine.processor_.read_data = word;
+    engine.recorder_->processor_access({false, address, word, function, engine.now_, asked, granted, engine.holds_.access_done()});
+  }
+  void start_write(std::uint32_t address, std::uint32_t data, unsigned function) {
+    const std::int64_t asked = std::max(engine.now_ + engine.spec_.bus.arbitration_ticks, engine.bus_free_);
+    const std::int64_t granted = engine.start_access(true, address, function);
+    engine.devices_.write(address, data, function);
+    engine.recorder_->processor_access({true, address, data, function, engine.now_, asked, granted, engine.holds_.access_done()});
+    engine.change_video(address, granted);
+  }
+};
+
 CycleEngine::CycleEngine(const Spec& spec, const MachineOptions& options)
     : spec_(spec),
       options_(options),
@@ -63,6 +81,9 @@ CycleEngine::CycleEngine(const Spec& spec, const MachineOptions& options)
   raster_ = {video::raster_of(devices_.video, spec.video, spec.memory.fetch_bits), -spec.video.phase_ps};
   raster_before_ = raster_;
   timing_.set_fetches({raster_.raster, raster_.origin_ps, 0, tick_ps()});
+  if (options.recorder)
+    recorder_ = make_recorder(*options.recorder, {spec_, processor_, devices_, timing_, raster_});
+  if (recorder_ && recorder_->from() == 0) recorder_->begin(0);
 }
 
 std::int64_t CycleEngine::now_tick() const {
@@ -116,6 +137,7 @@ inline void CycleEngine::book_access(bool write, std::int64_t asked, std::int64_
 }
 
 void CycleEngine::change_video(std::uint32_t address, std::int64_t tick) {
+  if (recorder_ && device_at(address) == Device::Fbc) recorder_->display_register((address & kAddressMask) - kFbc, tick);
   if (!sets_raster(address)) return;
   const video::Raster raster = video::raster_of(devices_.video, spec_.video, spec_.memory.fetch_bits);
   if (raster == raster_.raster) return;
@@ -124,6 +146,7 @@ void CycleEngine::change_video(std::uint32_t address, std::int64_t tick) {
   raster_from_ = tick;
   raster_ = {raster, tick * tick_ps()};
   timing_.set_fetches({raster_.raster, raster_.origin_ps, raster_.origin_ps, tick_ps()});
+  if (recorder_) recorder_->raster_changed(tick);
 }
 
 std::uint64_t& CycleEngine::counter(bps32::Cause cause) {
@@ -154,7 +177,15 @@ void CycleEngine::passed(const Decoded& word) {
 }
 
 void CycleEngine::stride(std::int64_t end) {
-  CyclePort port{*this};
+  if (recorder_)
+    stride_with<RecordingPort>(end);
+  else
+    stride_with<CyclePort>(end);
+}
+
+template <class Port>
+void CycleEngine::stride_with(std::int64_t end) {
+  Port port{*this};
   const Decoded* const words = decoded_.data() + bps32::page_base(processor_);
   const bool branches_cost = spec_.processor.taken_branch_ticks != 0;
   std::uint16_t pc = processor_.pc;
@@ -172,6 +203,7 @@ void CycleEngine::stride(std::int64_t end) {
     if (word.halt) {
       processor_.pc = pc;
       stopped(now_);
+      if (recorder_) recorder_->halted(now_);
       return;
     }
   }
@@ -199,8 +231,28 @@ void CycleEngine::find_loop() {
 void CycleEngine::run_until(std::int64_t end) {
   if (!processor_.running) return;
   const bool limited = options_.tick_limit > 0 && run_from_ + options_.tick_limit < end;
-  stride(limited ? run_from_ + options_.tick_limit : end);
+  const std::int64_t stop = limited ? run_from_ + options_.tick_limit : end;
+  if (recorder_)
+    run_recorded(stop);
+  else
+    stride(stop);
   if (limited && processor_.running) find_loop();
+}
+
+// Stops where the recorded window begins and ends. It begins at rest, so that a replay can do so, too.
+void CycleEngine::run_recorded(std::int64_t end) {
+  while (processor_.running && now_ < end) {
+    reach(now_);
+    const bool inside = now_ >= recorder_->from() && now_ < recorder_->to();
+    const std::int64_t edge = now_ < recorder_->from() ? recorder_->from() : inside ? recorder_->to() : end;
+    stride(recorder_->begun() || !inside ? std::min(edge, end) : now_ + 1);
+  }
+}
+
+void CycleEngine::reach(std::int64_t tick) {
+  const bool rests = holds_.rests(tick) && tick > raster_from_;
+  if (!recorder_->begun() && tick >= recorder_->from() && tick < recorder_->to() && rests) recorder_->begin(tick);
+  if (tick >= recorder_->to()) recorder_->end(recorder_->to());
 }
 
 std::uint32_t CycleEngine::transfer(bool write, std::uint32_t address, std::uint32_t data, unsigned function) {
@@ -211,6 +263,7 @@ std::uint32_t CycleEngine::transfer(bool write, std::uint32_t address, std::uint
     if (bus_free_ <= asked) break;
     asked = bus_free_;
   }
+  if (recorder_ && !processor_.running) reach(asked);
   const bool board = on_processor_board(address);
   int read_ticks = spec_.bus.register_read_ticks;
   const std::int64_t granted = board ? asked : grant(asked, write, address, function, read_ticks);
@@ -234,6 +287,8 @@ std::uint32_t CycleEngine::transfer(bool write, std::uint32_t address, std::uint
   } else {
     word = devices_.read(address, function);
   }
+  if (recorder_)
+    recorder_->host_access({write, address, write ? data : word, function, asked, asked, granted, granted + (write ? held : read_ticks)});
   wait_until(granted + (write ? held : read_ticks));
   return word;
 }
@@ -241,6 +296,10 @@ std::uint32_t CycleEngine::transfer(bool write, std::uint32_t address, std::uint
 void CycleEngine::command(bool run, bool reset) {
   const std::int64_t tick = now_tick();
   run_until(tick + 1);
+  if (recorder_) {
+    if (!processor_.running) reach(tick);
+    recorder_->command(tick, run, reset);
+  }
   if ((reset || !run) && processor_.running) stopped(tick + 1);
   if (reset) rds3000::reset(processor_);
   if (run && !reset && !processor_.running) {
@@ -262,6 +321,7 @@ void CycleEngine::host_sleeps() {
 
 void CycleEngine::finish(std::int64_t end) {
   run_until(end);
+  if (recorder_) recorder_->end(end);
   if (processor_.running) stopped(end);
   timing_.settle(end);
   std::int64_t ran = 0;

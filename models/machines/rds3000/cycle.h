@@ -1,10 +1,12 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <vector>
 
 #include "models/machines/rds3000/devices.h"
 #include "models/machines/rds3000/engine.h"
+#include "models/machines/rds3000/recorder.h"
 #include "models/parts/bps32/bps32_timing.h"
 #include "models/parts/dr64/dr64_timing.h"
 
@@ -34,12 +36,17 @@ class CycleEngine : public Engine {
 
  private:
   friend struct CyclePort;
+  friend struct RecordingPort;
 
   std::int64_t now_tick() const;
   void wait_until(std::int64_t tick);
 
   void run_until(std::int64_t end);
   void stride(std::int64_t end);
+  template <class Port>
+  void stride_with(std::int64_t end);
+  void run_recorded(std::int64_t end);
+  void reach(std::int64_t tick);
   bool hold(const bps32::Decoded& word, std::int64_t end);
   std::uint64_t& counter(bps32::Cause cause);
   void passed(const bps32::Decoded& word);
@@ -71,6 +78,7 @@ class CycleEngine : public Engine {
   std::int64_t run_from_ = 0;
   std::int64_t bus_free_ = 0;
   bps32::Holds holds_;
+  std::unique_ptr<Recorder> recorder_;  ///< or nothing
 };
 
 }  // namespace dendro::rds3000

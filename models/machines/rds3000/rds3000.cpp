@@ -2,9 +2,11 @@
 
 #include <algorithm>
 
+#include "models/machines/rds3000/boundaries.h"
 #include "models/machines/rds3000/clocked.h"
 #include "models/machines/rds3000/cycle.h"
 #include "models/machines/rds3000/function.h"
+#include "models/machines/rds3000/host_recorder.h"
 #include "models/machines/rds3000/timeline.h"
 
 namespace dendro::rds3000 {
@@ -68,7 +70,13 @@ class TimedMachine : public Machine {
   }
 
   void run(const std::function<void(HostPort&)>& host_program) override {
-    shell_ = std::make_unique<ik11b::Shell>("host", spec_.host, *engine_, host_program);
+    if (options_.recorder && options_.recorder->boundary() == kHostBoundary) {
+      host_recorder_ = std::make_unique<HostRecorder>(*options_.recorder, spec_, *engine_);
+      shell_ = std::make_unique<ik11b::Shell>("host", spec_.host, *host_recorder_,
+                                              [&](HostPort& port) { host_recorder_->run(port, host_program); });
+    } else {
+      shell_ = std::make_unique<ik11b::Shell>("host", spec_.host, *engine_, host_program);
+    }
     sc_core::sc_start();
     if (shell_->error()) std::rethrow_exception(shell_->error());
     end_ = (shell_->ended_ps() + spec_.processor.tick_ps - 1) / spec_.processor.tick_ps;
@@ -101,6 +109,7 @@ class TimedMachine : public Machine {
   Spec spec_;
   MachineOptions options_;
   std::unique_ptr<Engine> engine_;
+  std::unique_ptr<HostRecorder> host_recorder_;
   std::unique_ptr<ik11b::Shell> shell_;
   std::int64_t end_ = 0;
 };
@@ -148,6 +157,10 @@ MachineType rds3000_type() {
   type.levels = {Level::kFunction, Level::kCycle, Level::kClocked};
   type.folder = "models/machines/rds3000";
   type.make = make;
+  type.boundaries = boundaries();
+  type.replay = [](const config::ParameterSet& parameters, Level level, trace::Reader& trace) {
+    return replay(resolve(parameters), level, trace);
+  };
   return type;
 }
 

@@ -37,6 +37,13 @@ class Holds {
   bool bus_busy(std::int64_t tick) const { return access_ > tick; }
   bool data_ready(std::int64_t tick) const { return data_ <= tick; }
 
+  /// Tick at which the last access is complete.
+  std::int64_t access_done() const { return access_; }
+  /// True when nothing of the past can hold any word from this tick on.
+  bool rests(std::int64_t tick) const {
+    return std::max({any_, host_, branch_, data_, access_}) <= tick && scratch_ == kNotBegun;
+  }
+
   /// True when a word that asks nothing of bus and scratchpad may be held, too.
   bool holds_any(std::int64_t tick) const { return tick < any_; }
 

@@ -50,6 +50,25 @@ class Timing {
 
   const Counters& counters() const { return counters_; }
 
+  /// All that later grants depend on, next to the Spec: for a trace that begins in the middle.
+  struct Standing {
+    std::array<std::int64_t, 8> free_at{};                ///< tick from which each card is free
+    std::int64_t next_refresh_ps = 0, next_fetch_ps = 0;  ///< times of the next events not served yet
+  };
+  /// The standing before tick `at`.
+  Standing standing(std::int64_t at) const {
+    Timing settled = *this;
+    settled.settle(at);
+    return {settled.free_at_, settled.refresh_ps_, settled.fetches_.time_ps()};
+  }
+  /// Goes on from a standing; set_fetches() brings the fetches.
+  void resume(const Standing& standing) {
+    free_at_ = standing.free_at;
+    refresh_ps_ = standing.next_refresh_ps - spec_.refresh_interval_ps;
+    next_refresh();
+    aim();
+  }
+
  private:
   std::int64_t wait_for(std::int64_t request, std::uint32_t cards) {
     for (;;) {

@@ -25,6 +25,7 @@ class FetchCursor {
   FetchCursor(const Raster& raster, std::int64_t origin_ps, std::int64_t from_ps, std::int64_t tick_ps);
 
   std::int64_t tick() const { return tick_; }  ///< of the next fetch; kNever when nothing is displayed
+  std::int64_t time_ps() const { return next_ps_; }
   void advance();
 
  private:

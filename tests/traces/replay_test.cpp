@@ -1,0 +1,204 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <set>
+#include <sstream>
+
+#include "models/machines/rds3000/rds3000.h"
+#include "sim/base/error.h"
+#include "sim/study/trace.h"
+
+/// Replays every trace of the repository.
+namespace dendro::study {
+namespace {
+
+struct Entry {
+  std::string file, record;
+  bool repeat = false;
+};
+
+Catalogue catalogue() { return {{rds3000::rds3000_type()}, algorithms(), SHARE}; }
+
+std::string path_of(const std::string& file) { return std::string(TRACES) + "/" + file; }
+
+std::string text_of(const config::Node& entry, const std::string& key) {
+  const config::Node* node = entry.member(key);
+  return node ? std::get<std::string>(node->value) : "";
+}
+
+std::vector<Entry> manifest() {
+  const std::string path = path_of("manifest.toml");
+  const config::Node root = config::parse_toml(config::read_text({false, path}, {}), path);
+  std::vector<Entry> entries;
+  for (const config::Node& entry : root.member("trace")->items)
+    entries.push_back({text_of(entry, "file"), text_of(entry, "record"), entry.member("repeat") != nullptr});
+  return entries;
+}
+
+std::vector<std::string> files() {
+  std::vector<std::string> names;
+  for (const Entry& entry : manifest()) names.push_back(entry.file);
+  return names;
+}
+
+std::vector<std::string> hand_written() {
+  std::vector<std::string> names = files();
+  names.erase(std::remove_if(names.begin(), names.end(),
+                             [](const std::string& name) { return name.find(".txt") == std::string::npos; }),
+              names.end());
+  return names;
+}
+
+std::string printable(const std::string& file) {
+  std::string name = file;
+  std::replace_if(name.begin(), name.end(), [](char c) { return !std::isalnum(static_cast<unsigned char>(c)); }, '_');
+  return name;
+}
+
+TEST(Manifest, ListsEveryTraceOfItsFolderAndNoOther) {
+  std::set<std::string> listed, there;
+  for (const std::string& name : files()) EXPECT_TRUE(listed.insert(name).second) << name << " twice";
+  for (const auto& entry : std::filesystem::directory_iterator(TRACES)) {
+    const std::string ending = entry.path().extension().string();
+    if (ending == ".trace" || ending == ".txt") there.insert(entry.path().filename().string());
+  }
+  EXPECT_EQ(listed, there);
+  EXPECT_GE(hand_written().size(), 8u);
+}
+
+class EveryTrace : public ::testing::TestWithParam<std::string> {};
+
+TEST_P(EveryTrace, IsWhatItsUnitDoesAtBothLevels) {
+  for (const char* level : {"cycle", "clocked"}) {
+    const ReplayOutput output = replay_trace(catalogue(), {path_of(GetParam()), level, {}});
+    EXPECT_FALSE(output.result.difference.has_value()) << level << ": " << *output.result.difference;
+    EXPECT_GT(output.result.transactions, 0);
+    EXPECT_GT(output.result.cycles, 0);
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Traces, EveryTrace, ::testing::ValuesIn(files()),
+                         [](const auto& instance) { return printable(instance.param); });
+
+/// A trace as text with one expectation changed.
+struct Changed {
+  std::string text;
+  int line = 0;
+};
+
+std::vector<Changed> every_expectation_changed(const trace::Header& header, const std::vector<trace::Record>& records) {
+  std::vector<Changed> all;
+  const int header_lines = static_cast<int>(std::count_if(header.settings.begin(), header.settings.end(), [](auto&) { return true; })) + 4;
+  const auto with = [&](std::size_t changed, const trace::Record& replacement) {
+    std::string text = trace::header_text(header);
+    for (std::size_t i = 0; i < records.size(); ++i) text += trace::to_text(i == changed ? replacement : records[i]) + "\n";
+    all.push_back({text, header_lines + static_cast<int>(changed) + 1});
+  };
+  for (std::size_t i = 0; i < records.size(); ++i) {
+    trace::Record record = records[i];
+    if (record.answer_at.given()) {
+      ++record.answer_at.ticks;
+      with(i, record);
+      record = records[i];
+    }
+    if (record.answer) {
+      record.answer->value ^= 1;
+      with(i, record);
+      record = records[i];
+    }
+    for (auto& key : record.answer_keys) {
+      key.second.value ^= 1;
+      with(i, record);
+      key.second.value ^= 1;
+    }
+  }
+  return all;
+}
+
+class HandWrittenTrace : public ::testing::TestWithParam<std::string> {};
+
+TEST_P(HandWrittenTrace, AnyExpectationThatIsChangedIsFoundAtItsLine) {
+  const auto reader = open_trace(catalogue(), path_of(GetParam()));
+  std::vector<trace::Record> records;
+  trace::Record record;
+  while (reader->next(record)) records.push_back(record);
+  const std::vector<Changed> all = every_expectation_changed(reader->header(), records);
+  EXPECT_FALSE(all.empty()) << "it expects nothing";
+  const std::string path = ::testing::TempDir() + "dendro_changed_" + printable(GetParam()) + ".txt";
+  for (const Changed& changed : all) {
+    std::ofstream(path) << changed.text;
+    for (const char* level : {"cycle", "clocked"}) {
+      const ReplayOutput output = replay_trace(catalogue(), {path, level, {}});
+      ASSERT_TRUE(output.result.difference.has_value()) << level << ", line " << changed.line << " of\n" << changed.text;
+      EXPECT_EQ(0u, output.result.difference->find(path + ":" + std::to_string(changed.line) + ":"))
+          << level << ", line " << changed.line << ": " << *output.result.difference;
+    }
+  }
+  std::remove(path.c_str());
+}
+
+INSTANTIATE_TEST_SUITE_P(Traces, HandWrittenTrace, ::testing::ValuesIn(hand_written()),
+                         [](const auto& instance) { return printable(instance.param); });
+
+/// The arguments of a manifest's `record` line that records a program of the folder.
+RecordArguments arguments_of(const std::string& line) {
+  RecordArguments arguments;
+  std::istringstream words(line);
+  std::string word;
+  while (words >> word) {
+    std::string value;
+    words >> value;
+    if (word == "--exec") {
+      arguments.exec.machine = value;
+      words >> value;
+      arguments.exec.program = path_of(value);
+    } else if (word == "--set") {
+      arguments.exec.settings.push_back(value);
+    } else if (word == "--boundary") {
+      arguments.boundary = value;
+    } else if (word == "--from") {
+      arguments.from = std::stoll(value);
+    } else if (word == "--to") {
+      arguments.to = std::stoll(value);
+    } else {
+      ADD_FAILURE() << word;
+    }
+  }
+  return arguments;
+}
+
+std::string printed(trace::Reader& reader) {
+  std::string text = trace::header_text(reader.header());
+  trace::Record record;
+  while (reader.next(record)) text += trace::to_text(record) + "\n";
+  return text;
+}
+
+TEST(Repeated, RecordingAProgramAgainGivesTheSameTrace) {
+  int repeated = 0;
+  for (const Entry& entry : manifest()) {
+    if (!entry.repeat) continue;
+    ++repeated;
+    SCOPED_TRACE(entry.file);
+    trace::Reader again(record_trace(catalogue(), arguments_of(entry.record), nullptr).bytes, "again");
+    const auto kept = open_trace(catalogue(), path_of(entry.file));
+    EXPECT_EQ(printed(*kept), printed(again));
+  }
+  EXPECT_GE(repeated, 3);
+}
+
+TEST(WhatIf, AnotherMachineDiffersFromTheTraceAndSaysWhere) {
+  const auto difference = [](const char* file, const char* setting) {
+    const ReplayOutput output = replay_trace(catalogue(), {path_of(file), "cycle", {setting}});
+    return output.result.difference.value_or("");
+  };
+  EXPECT_NE(std::string::npos, difference("waits-for-data.txt", "processor.accesses_in_flight=0").find("waits-for-data.txt:14:"));
+  EXPECT_NE(std::string::npos, difference("writes-to-one-card.txt", "frame_memory.card_busy_ticks=3").find("writes-to-one-card.txt:7:"));
+  EXPECT_NE(std::string::npos, difference("dma-pace.txt", "host.dma_start_ms=2.0").find("dma-pace.txt:8:"));
+}
+
+}  // namespace
+}  // namespace dendro::study
