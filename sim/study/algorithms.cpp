@@ -21,7 +21,9 @@ struct Source {
 
 constexpr Source kHalfSpace = {"half_space", "rds3000", "firmware/half_space/rds3000/half_space.gia"};
 
-const Source kSources[] = {kHalfSpace};
+constexpr Source kHulls = {"hulls", "rds3000", "firmware/half_space/rds3000/hulls.gia"};
+
+const Source kSources[] = {kHalfSpace, kHulls};
 const char* const kPacks[] = {"none", "full"};
 
 tools::Assembly assemble_source(const Source& source, const tools::AssembleOptions& options) {
@@ -77,6 +79,8 @@ std::unique_ptr<Job> make_half_space(const scene::Scene& scene, const MachineTyp
   site.scratch_words = static_cast<std::uint32_t>(integer_of(parameters, "processor.scratch_words"));
   const config::Parameter* mode = parameters.find("video.display_mode");
   site.repeat_field = mode != nullptr && config::to_text(mode->value) == "1";
+  if (half_space::needs_three_registers(scene))
+    return half_space::make_hulls_job(scene, program_for(kHulls, parameters), site);
   return half_space::make_job(scene, program_for(kHalfSpace, parameters), site);
 }
 
