@@ -43,12 +43,15 @@ class HullsJob : public Job {
 
   std::vector<std::string> input_files() const override { return prepared_.files; }
 
-  std::vector<FirmwareImage> firmware() const override { return {{image_.name, image_.sha256, image_.symbols}}; }
+  std::vector<FirmwareImage> firmware() const override {
+    return {{image_.name, image_.sha256, image_.symbols}};
+  }
 
   std::vector<std::pair<std::string, double>> facts() const override {
     std::size_t back = 0, edge_on = 0, front = 0, wide = 0, visible = 0, unbounded = 0;
     for (const Hull& hull : prepared_.hulls) {
-      back += hull.program.back.size(), edge_on += hull.program.edge_on.size(), front += hull.program.front.size();
+      back += hull.program.back.size(), edge_on += hull.program.edge_on.size(),
+          front += hull.program.front.size();
       wide += hull.program.wide_records(), visible += hull.visible, unbounded += !hull.bounded;
     }
     const auto count = [](auto n) { return static_cast<double>(n); };
@@ -71,7 +74,8 @@ class HullsJob : public Job {
     for (int y = 0; y < prepared_.height; ++y)
       for (int x = 0; x < prepared_.width; ++x) {
         const auto at = static_cast<std::uint32_t>(x) << 1 | static_cast<std::uint32_t>(y) << 11;
-        nearest.push_back(static_cast<std::uint8_t>(machine.peek(at, kLoresPixel) >> kNearestLow & kHullField));
+        nearest.push_back(
+            static_cast<std::uint8_t>(machine.peek(at, kLoresPixel) >> kNearestLow & kHullField));
       }
     return nearest;
   }

@@ -101,6 +101,8 @@ tools::Ucode half_space_program(const config::ParameterSet& parameters) {
   return assemble_for(kHalfSpace, parameters);
 }
 
+tools::Ucode hulls_program(const config::ParameterSet& parameters) { return assemble_for(kHulls, parameters); }
+
 std::vector<Firmware> firmware_list() {
   std::vector<Firmware> list;
   for (const Source& source : kSources) {

@@ -30,6 +30,9 @@ const std::vector<Algorithm>& algorithms();
 /// The half-space program as it is assembled for a machine with these parameters. Throws UserError.
 tools::Ucode half_space_program(const config::ParameterSet& parameters);
 
+/// The same for the program with three registers.
+tools::Ucode hulls_program(const config::ParameterSet& parameters);
+
 /// A microprogram that ships with dendro, in all its packings.
 struct Firmware {
   std::string name;  ///< "half_space"

@@ -48,7 +48,9 @@ class Real {
 
 using Vector = std::array<Real, 3>;
 
-Vector vector(const glm::dvec3& v, GrowthCount& count) { return {Real(v.x, count), Real(v.y, count), Real(v.z, count)}; }
+Vector vector(const glm::dvec3& v, GrowthCount& count) {
+  return {Real(v.x, count), Real(v.y, count), Real(v.z, count)};
+}
 glm::dvec3 plain(const Vector& v) { return {v[0].value(), v[1].value(), v[2].value()}; }
 Vector operator*(const Vector& v, Real s) { return {v[0] * s, v[1] * s, v[2] * s}; }
 Vector operator+(const Vector& a, const Vector& b) { return {a[0] + b[0], a[1] + b[1], a[2] + b[2]}; }
@@ -62,9 +64,9 @@ struct Node {
   std::uint64_t index = 0;  ///< in the unpruned tree: the children of i are 2i and 2i + 1
 
   bool is_split = false;
-  glm::dvec3 b{};                            ///< the children's origin
-  std::array<double, 2> angle{};             ///< between this and each child
-  std::array<int, 2> child = {-1, -1};       ///< numbers of nodes, -1: pruned
+  glm::dvec3 b{};                       ///< the children's origin
+  std::array<double, 2> angle{};        ///< between this and each child
+  std::array<int, 2> child = {-1, -1};  ///< numbers of nodes, -1: pruned
 };
 
 /// SplitMix64's finaliser: every bit of the input moves every bit of the result.
@@ -156,7 +158,7 @@ class Growth {
   Real draw_angle(const Node& node, Stream& stream) {
     GrowthCount& count = result_.printed;
     return draw_until(
-        "1000 angles in a row lie beyond angle_limit",
+        "1000 angles in a row are not below alpha_max",
         [&] { return stream.gauss(count) * node.sigma_angle + node.mean_angle; },
         [&](Real a) { return Real(std::abs(a.value()), count).below(parameters_.angle_limit); });
   }
@@ -165,7 +167,8 @@ class Growth {
     Real angle, cosine, length;
   };
 
-  /// Steps 2 and 3 for one child. A length beyond its limit takes a new angle too: near a right angle no noise would mend it.
+  /// Steps 2 and 3 for one child. A length beyond its limit takes a new angle too: near a right angle no
+  /// noise would mend it.
   Side draw_side(const Node& node, Real distance, Real noise, Stream& stream) {
     GrowthCount& count = result_.printed;
     for (int i = 0; i < kMostDraws; ++i) {
@@ -189,7 +192,7 @@ class Growth {
         [&] { return (stream.gauss(printed) * parameters_.sigma_b + parameters_.mean_b) * l; },
         [&](Real d) { return !d.below(1e-9 * node.length); });
     const Vector u = vector(node.direction, space);
-    const Vector b = vector(node.origin, space) + u * (l.in(space) - distance);
+    const Vector b = vector(node.origin, space) + u * (l.in(space)-distance);
     const Vector s = across(u, Real(2.0 * kPi * stream.uniform(), space));
     const Real noise = l * parameters_.sigma_length;
     node.is_split = true;

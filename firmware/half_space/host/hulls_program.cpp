@@ -10,8 +10,8 @@ namespace dendro::half_space {
 namespace {
 
 std::vector<std::uint32_t> box_words(const Box& box) {
-  return {static_cast<std::uint32_t>(box.x0), static_cast<std::uint32_t>(box.y0), static_cast<std::uint32_t>(box.x1),
-          static_cast<std::uint32_t>(box.y1)};
+  return {static_cast<std::uint32_t>(box.x0), static_cast<std::uint32_t>(box.y0),
+          static_cast<std::uint32_t>(box.x1), static_cast<std::uint32_t>(box.y1)};
 }
 
 std::vector<std::uint32_t> params_of(const PlaneProgram& program, bool clear) {
@@ -80,7 +80,8 @@ class HullsRun {
 
 void check_fits(const PreparedHulls& prepared, const lib::ProgramImage& image, std::uint32_t scratch_words,
                 const scene::Where& where) {
-  for (const auto& [name, size] : {std::pair("box", kBoxWords), {"params", int{kHullParamsWords}}, {"records", 0}}) {
+  for (const auto& [name, size] :
+       {std::pair("box", kBoxWords), {"params", int{kHullParamsWords}}, {"records", 0}}) {
     const auto area = image.scratch.find(name);
     if (area == image.scratch.end() || area->second.size < static_cast<std::uint32_t>(size))
       throw UserError(image.name + fmt::format(": the scratch area \"{}\" is missing or too small", name));

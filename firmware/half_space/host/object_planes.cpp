@@ -124,7 +124,8 @@ void check_mesh_options(const scene::Scene& scene, const scene::Options& options
     if (options.has(meshes_only)) options.fail(meshes_only, "goes with an object that is a mesh only");
 }
 
-std::vector<ObjectPlanes> object_planes(const scene::Object& object, scene::Options& options, std::uint64_t seed) {
+std::vector<ObjectPlanes> object_planes(const scene::Object& object, scene::Options& options,
+                                        std::uint64_t seed) {
   std::vector<ObjectPlanes> result;
   if (object.tree.empty())
     result.push_back(given_planes(object, options));
@@ -133,8 +134,9 @@ std::vector<ObjectPlanes> object_planes(const scene::Object& object, scene::Opti
   const char* key = source_key(object);
   for (const ObjectPlanes& one : result) {
     if (one.planes.empty())
-      blame(object, key, one.grown ? "splitting leaves no plane: all are pruned; see keep_parent"
-                                   : "the object has no planes; give mesh, solid, planes or tree");
+      blame(object, key,
+            one.grown ? "splitting leaves no plane: all are pruned; see keep_parent"
+                      : "the object has no planes; give mesh, solid, planes or tree");
     if (one.planes.size() > static_cast<std::size_t>(kMostPlanes))
       blame(object, key,
             fmt::format("{} planes are more than the scratchpad's {}", one.planes.size(), kMostPlanes));

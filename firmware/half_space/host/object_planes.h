@@ -20,10 +20,11 @@ struct ObjectPlanes {
   double reach = 0;
 };
 
-/// The convex objects of an object of the scene: one, or the copies of a tree. Reads the options `planes`, `plane_source`
-/// and `directions`; `seed` is for a tree that has none of its own. Throws UserError for a mesh, list or tree that
-/// gives no such planes.
-std::vector<ObjectPlanes> object_planes(const scene::Object& object, scene::Options& options, std::uint64_t seed);
+/// The convex objects of an object of the scene: one, or the copies of a tree. Reads the options `planes`,
+/// `plane_source` and `directions`; `seed` is for a tree that has none of its own. Throws UserError for a
+/// mesh, list or tree that gives no such planes.
+std::vector<ObjectPlanes> object_planes(const scene::Object& object, scene::Options& options,
+                                        std::uint64_t seed);
 
 /// Throws UserError for options of meshes in a scene without any.
 void check_mesh_options(const scene::Scene& scene, const scene::Options& options);

@@ -102,7 +102,8 @@ class HullsPreparation {
     result_.hulls.push_back(std::move(hull));
   }
 
-  /// All 24 bits are depth, so depth is what colour can come from: the look-up table fades it.  ASSUMED DEV-046
+  /// All 24 bits are depth, so depth is what colour can come from: the look-up table fades it.  ASSUMED
+  /// DEV-046
   void make_shades() {
     const std::vector<double> colour = options_.vector("colour", {1, 1, 1}, 0, 1);
     const double near_shade = options_.real("near_shade", 1.0, 0, 10);
@@ -112,8 +113,9 @@ class HullsPreparation {
     const Rgb background = to_rgb(options_.vector("background", {0, 0, 0}, 0, 1), 1.0);
     for (int d = 0; d < 256; ++d) {
       const double way = static_cast<double>(d) / result_.maxdepth;
-      const double in_band = way * bands - std::floor(way * bands);
-      const double shade = (near_shade + (far_shade - near_shade) * way) * (1 - relief * in_band);
+      const double in_band = std::abs(2 * (way * bands - std::floor(way * bands)) - 1);
+      const double shade =
+          (near_shade + (far_shade - near_shade) * way) * (1 - (bands > 0 ? relief * in_band : 0));
       result_.shades.push_back(d < result_.maxdepth ? to_rgb(colour, shade) : background);
     }
   }
@@ -140,8 +142,8 @@ std::size_t PreparedHulls::planes() const {
 
 bool needs_three_registers(const scene::Scene& scene) {
   scene::Options options = scene.options;
-  const bool several = scene.objects.size() > 1 ||
-                       std::any_of(scene.objects.begin(), scene.objects.end(), has_copies);
+  const bool several =
+      scene.objects.size() > 1 || std::any_of(scene.objects.begin(), scene.objects.end(), has_copies);
   const bool three = options.integer("registers", several ? 3 : 2, 2, 3) == 3;
   if (several && !three) options.fail("registers", "more than one hull needs the third register");
   return three;

@@ -36,8 +36,8 @@ struct PreparedHulls {
 /// True when the picture takes the program with three registers: more than one hull, or `registers = 3`.
 bool needs_three_registers(const scene::Scene& scene);
 
-/// Steps S1, S2 and S4 for all objects of the scene. Throws UserError for everything that the algorithm or the frame
-/// buffer cannot do.
+/// Steps S1, S2 and S4 for all objects of the scene. Throws UserError for everything that the algorithm or
+/// the frame buffer cannot do.
 PreparedHulls prepare_hulls(const scene::Scene& scene);
 
 }  // namespace dendro::half_space

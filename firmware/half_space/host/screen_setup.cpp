@@ -131,7 +131,9 @@ Extent extent_of(const ObjectPlanes& object, const scene::Affine& view) {
 
 SteepPolicy read_steep(scene::Options& options) {
   const std::string steep = options.choice("steep", "wide", {"wide", "saturate", "wrap"});
-  return steep == "wide" ? SteepPolicy::kWide : steep == "saturate" ? SteepPolicy::kSaturate : SteepPolicy::kWrap;
+  return steep == "wide"       ? SteepPolicy::kWide
+         : steep == "saturate" ? SteepPolicy::kSaturate
+                               : SteepPolicy::kWrap;
 }
 
 Work growth_work(const Grown& growth) {

@@ -59,9 +59,10 @@ Rgb to_rgb(const std::vector<double>& colour, double shade);
 struct Extent {
   std::vector<glm::dvec3> corners;  ///< none: unbounded
   std::uint64_t flops = 0;
-  bool bounded = false;             ///< the object itself
-  bool empty = false;               ///< no point lies inside all its planes
-  /// Depth to be mapped: of the corners; of an unbounded tree twice the reach of its start normals; else none.
+  bool bounded = false;  ///< the object itself
+  bool empty = false;    ///< no point lies inside all its planes
+  /// Depth to be mapped: of the corners; of an unbounded tree twice the reach of its start normals; else
+  /// none.
   double nearest = INFINITY, farthest = -INFINITY;
 
   bool has_depth() const { return nearest <= farthest; }

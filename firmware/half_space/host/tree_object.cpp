@@ -32,7 +32,8 @@ GrowthParameters read_growth(const scene::Object& object, scene::Options& option
     p.start.emplace_back(row[0], row[1], row[2]);
     if (!(glm::length(p.start.back()) > 0)) options.fail("start", "a start normal must not be zero");
   }
-  if (options.has("start") && p.start.empty()) options.fail("start", "the list is empty: 0 normals bound nothing");
+  if (options.has("start") && p.start.empty())
+    options.fail("start", "the list is empty: 0 normals bound nothing");
   if (p.start.empty())
     p.start = start_normals(object.tree, count, radius);
   else if (options.has("start_normals") || options.has("radius"))
@@ -74,8 +75,8 @@ Copies read_copies(scene::Options& options) {
 
 /// One tree somewhere in each cell of a grid over the area; cells that stay free are the last ones.
 std::vector<Tree> lay_out(const Copies& copies, const Tree& first) {
-  const int columns = std::max(
-      1, static_cast<int>(std::ceil(std::sqrt(copies.count * copies.area[0] / copies.area[1]))));
+  const int columns =
+      std::max(1, static_cast<int>(std::ceil(std::sqrt(copies.count * copies.area[0] / copies.area[1]))));
   const int rows = (copies.count + columns - 1) / columns;
   std::mt19937_64 random(first.growth.seed);
   std::vector<Tree> trees;
@@ -113,8 +114,9 @@ std::vector<Tree> trees_of(const scene::Object& object, std::uint64_t seed) {
   const scene::Where& where = object.source_where;
   const auto& kinds = tree_kinds();
   if (std::find(kinds.begin(), kinds.end(), object.tree) == kinds.end())
-    throw UserError(where.file, where.line, "object.tree",
-                    fmt::format("\"{}\" is not known; must be one of {}", object.tree, fmt::join(kinds, ", ")));
+    throw UserError(
+        where.file, where.line, "object.tree",
+        fmt::format("\"{}\" is not known; must be one of {}", object.tree, fmt::join(kinds, ", ")));
   scene::Options options("object", where);
   for (const auto& [key, value] : object.tree_parameters) options.set(key, value);
   Tree tree{read_growth(object, options), object};

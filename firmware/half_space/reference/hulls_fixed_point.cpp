@@ -11,7 +11,8 @@ namespace {
 /// One hull's share. An empty pixel has 0 in both of the hull's registers and stays so.
 class HullPasses {
  public:
-  HullPasses(const PlaneProgram& program, FixedPointPicture& picture) : program_(program), picture_(picture) {}
+  HullPasses(const PlaneProgram& program, FixedPointPicture& picture)
+      : program_(program), picture_(picture) {}
 
   void run() {
     const auto maxdepth = static_cast<std::uint32_t>(program_.maxdepth);
@@ -48,7 +49,9 @@ class HullPasses {
     return static_cast<std::uint32_t>(std::clamp<std::int64_t>(z >> kFractionBits, 0, program_.maxdepth));
   }
 
-  std::uint32_t& pixel(int x, int y) { return picture_.pixels[static_cast<std::size_t>(y) * picture_.width + x]; }
+  std::uint32_t& pixel(int x, int y) {
+    return picture_.pixels[static_cast<std::size_t>(y) * picture_.width + x];
+  }
 
   template <typename F>
   void each_pixel(F&& change) {
@@ -74,7 +77,8 @@ FixedPointPicture run_hulls_fixed_point(const PreparedHulls& prepared, std::uint
   FixedPointPicture picture{prepared.width, prepared.height, {}};
   const auto clear = static_cast<std::uint32_t>(prepared.maxdepth) << kNearestLow;
   const std::uint32_t nearest_field = kHullField << kNearestLow;
-  picture.pixels.assign(static_cast<std::size_t>(prepared.width) * prepared.height, (before & ~nearest_field) | clear);
+  picture.pixels.assign(static_cast<std::size_t>(prepared.width) * prepared.height,
+                        (before & ~nearest_field) | clear);
   for (const Hull& hull : prepared.hulls)
     if (hull.visible) HullPasses(hull.program, picture).run();
   return picture;

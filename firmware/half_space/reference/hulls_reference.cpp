@@ -118,7 +118,8 @@ ErrorReport compare(const HullsReference& reference, const std::vector<std::uint
     outside += nearest[i] < reference.lower[i] || nearest[i] > reference.upper[i];
     const bool certain = covered && drawn && reference.upper[i] == reference.lower[i];
     if (certain)
-      report.max_depth_error = std::max(report.max_depth_error, std::abs(nearest[i] + 0.5 - reference.depth[i]));
+      report.max_depth_error =
+          std::max(report.max_depth_error, std::abs(nearest[i] + 0.5 - reference.depth[i]));
   }
   report.psnr_db = psnr(reference.rgb, rgb);
   report.extra = {{"outside_enclosure", static_cast<double>(outside)},

@@ -243,7 +243,8 @@ TEST(TreeScene, TheFirstBoxHoldsTheCrownAlsoWithLargeAngles) {
       for (int x = 0; x < 160; ++x) {
         const Box& box = boxed.program.box;
         const bool inside = x >= box.x0 && x <= box.x1 && y >= box.y0 && y <= box.y1;
-        ASSERT_TRUE(inside || picture.pixels[160 * y + x] == kBackgroundWord) << seed << " at " << x << "," << y;
+        ASSERT_TRUE(inside || picture.pixels[160 * y + x] == kBackgroundWord)
+            << seed << " at " << x << "," << y;
       }
   }
 }

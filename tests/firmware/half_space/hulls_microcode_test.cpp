@@ -60,8 +60,8 @@ TEST(HullsMicrocode, EveryPixelWordOfRandomIntersectingHullsIsThatOfTheIntegerMo
   const lib::ProgramImage straight = microcode("none"), packed = microcode("full");
   std::size_t wide = 0, edge_on = 0, seen = 0;
   for (int i = 0; i < 30; ++i) {
-    scene::Scene scene = with(random_hulls(random, 40 + static_cast<int>(random() % 60), 2 + i % 4), "depth_bits",
-                              static_cast<std::int64_t>(6 + random() % 3));
+    scene::Scene scene = with(random_hulls(random, 40 + static_cast<int>(random() % 60), 2 + i % 4),
+                              "depth_bits", static_cast<std::int64_t>(6 + random() % 3));
     if (i % 5 == 0) scene = with(scene, "starting_box", std::string("full"));
     if (i % 3 == 0) scene = with(scene, "boxing", false);
     const PreparedHulls prepared = prepare_hulls(scene);
@@ -94,7 +94,8 @@ TEST(HullsMicrocode, BoxingAndTheOrderOfHullsChangeNoNearestDepth) {
     const scene::Scene scene = random_hulls(random, 70, 4);
     scene::Scene turned = with(scene, "boxing", false);
     std::reverse(turned.objects.begin(), turned.objects.end());
-    const std::vector<std::uint32_t> a = pixels_of(prepare_hulls(scene), image), b = pixels_of(prepare_hulls(turned), image);
+    const std::vector<std::uint32_t> a = pixels_of(prepare_hulls(scene), image),
+                                     b = pixels_of(prepare_hulls(turned), image);
     for (std::size_t p = 0; p < a.size(); ++p) ASSERT_EQ(a[p] >> kNearestLow, b[p] >> kNearestLow) << p;
   }
 }
@@ -104,8 +105,7 @@ TEST(HullsMicrocode, TheMergeIsTheMinimumOfTheHullsDrawnAlone) {
   const lib::ProgramImage image = microcode("full");
   // One depth range for all, so that a hull alone has the depths that it has among the others.
   const scene::Scene scene =
-      with(random_hulls(random, 80, 3), "depth_range",
-           scene::OptionValue::Array{{3.0, {}}, {7.0, {}}});
+      with(random_hulls(random, 80, 3), "depth_range", scene::OptionValue::Array{{3.0, {}}, {7.0, {}}});
   const std::vector<std::uint32_t> together = pixels_of(prepare_hulls(scene), image);
   std::vector<std::uint32_t> least(together.size(), 255);
   int nearer = 0;

@@ -1,3 +1,5 @@
+#include "firmware/half_space/reference/hulls_reference.h"
+
 #include <gmpxx.h>
 #include <gtest/gtest.h>
 
@@ -5,7 +7,6 @@
 
 #include "firmware/half_space/host/hulls_layout.h"
 #include "firmware/half_space/reference/hulls_fixed_point.h"
-#include "firmware/half_space/reference/hulls_reference.h"
 #include "sim/base/error.h"
 #include "tests/firmware/half_space/random_hulls.h"
 
@@ -81,8 +82,10 @@ TEST(HullsReference, EnclosureIsOneDepthAtMostPixels) {
   std::mt19937 random(kSeed);
   const HullsReference reference = render_hulls_reference(prepare_hulls(random_hulls(random, 128, 3)));
   int certain = 0;
-  for (std::size_t i = 0; i < reference.depth.size(); ++i) certain += reference.upper[i] - reference.lower[i] <= 1;
-  EXPECT_GT(certain, static_cast<int>(reference.depth.size()) * 95 / 100) << "an enclosure of everything would prove nothing";
+  for (std::size_t i = 0; i < reference.depth.size(); ++i)
+    certain += reference.upper[i] - reference.lower[i] <= 1;
+  EXPECT_GT(certain, static_cast<int>(reference.depth.size()) * 95 / 100)
+      << "an enclosure of everything would prove nothing";
 }
 
 TEST(HullsReference, AHullDrawnOneUnitTooNearLeavesTheEnclosure) {
@@ -107,7 +110,8 @@ TEST(HullsFixedPoint, AHullWithoutABackPlaneShowsBackgroundAndIsReported) {
   scene = with(with(scene, "unbounded", std::string("background")), "depth_range",
                scene::OptionValue::Array{{3.0, {}}, {7.0, {}}});
   const PreparedHulls prepared = prepare_hulls(scene);
-  for (const std::uint8_t depth : nearest_of(run_hulls_fixed_point(prepared))) ASSERT_EQ(depth, prepared.maxdepth);
+  for (const std::uint8_t depth : nearest_of(run_hulls_fixed_point(prepared)))
+    ASSERT_EQ(depth, prepared.maxdepth);
   const ErrorReport error = error_of(prepared);
   EXPECT_EQ(error.covered_pixels, 0);
   EXPECT_EQ(extra(error, "unbounded_share"), 1.0);

@@ -8,8 +8,8 @@
 
 namespace dendro::half_space::testing_scenes {
 
-/// A random closed hull around a point: an axis box, some of its planes edge-on, cut by random planes, every third of them
-/// nearly edge-on and so steep.
+/// A random closed hull around a point: an axis box, some of its planes edge-on, cut by random planes, every
+/// third of them nearly edge-on and so steep.
 inline scene::Object random_object(std::mt19937& random) {
   std::normal_distribution<double> gauss;
   std::uniform_real_distribution<double> offset(0.3, 0.8);
@@ -28,8 +28,9 @@ inline scene::Object random_object(std::mt19937& random) {
   for (int i = 0; i < more; ++i) {
     scene::PlaneEntry plane;
     plane.normal = {gauss(random), gauss(random), i % 3 == 0 ? gauss(random) / 2000 : gauss(random)};
-    plane.offset = offset(random) * std::sqrt(plane.normal[0] * plane.normal[0] + plane.normal[1] * plane.normal[1] +
-                                              plane.normal[2] * plane.normal[2]);
+    plane.offset =
+        offset(random) * std::sqrt(plane.normal[0] * plane.normal[0] + plane.normal[1] * plane.normal[1] +
+                                   plane.normal[2] * plane.normal[2]);
     object.planes.push_back(plane);
   }
   return object;
