@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "firmware/half_space/host/host_program.h"
+#include "firmware/half_space/reference/hulls_reference.h"
 #include "firmware/half_space/reference/reference.h"
 #include "sim/base/check.h"
 
@@ -21,7 +22,11 @@ class HalfSpaceJob : public Job {
   ErrorReport compare(const MachineView& machine) const override {
     DENDRO_CHECK(machine.width == width() && machine.height == height(), "the monitor shows {}x{}",
                  machine.width, machine.height);
-    return half_space::compare(reference(), read_back(machine, width(), height()), machine.rgb);
+    ErrorReport report = half_space::compare(reference(), read_back(machine, width(), height()), machine.rgb);
+    const UnboundedPixels open = count_unbounded(prepared_.screen, width(), height(), prepared_.program.maxdepth);
+    report.extra.emplace_back("unbounded_pixels", static_cast<double>(open.unbounded));
+    report.extra.emplace_back("unbounded_share", open.share());
+    return report;
   }
 
   std::vector<Layer> layers(const MachineView& machine) const override {
@@ -58,7 +63,8 @@ class HalfSpaceJob : public Job {
             {"planes.wide", count(program.wide_records())},
             {"box.width", static_cast<double>(program.box.width())},
             {"box.height", static_cast<double>(program.box.height())},
-            {"host.flops", static_cast<double>(prepared_.setup_flops)}};
+            {"host.flops", static_cast<double>(prepared_.setup_flops)},
+            {"host.growth_flops", static_cast<double>(prepared_.growth.flops)}};
   }
 
  private:

@@ -20,4 +20,10 @@ struct Site {
 /// refuse.
 std::unique_ptr<Job> make_job(const scene::Scene& scene, ProgramImage image, const Site& site = {});
 
+/// The job that draws `scene`, one hull or more, with the microprogram for three registers (hulls.gia).
+std::unique_ptr<Job> make_hulls_job(const scene::Scene& scene, ProgramImage image, const Site& site = {});
+
+/// True when the scene takes make_hulls_job. Throws UserError.
+bool needs_three_registers(const scene::Scene& scene);
+
 }  // namespace dendro::half_space

@@ -21,7 +21,9 @@ struct Source {
 
 constexpr Source kHalfSpace = {"half_space", "rds3000", "firmware/half_space/rds3000/half_space.gia"};
 
-const Source kSources[] = {kHalfSpace};
+constexpr Source kHulls = {"hulls", "rds3000", "firmware/half_space/rds3000/hulls.gia"};
+
+const Source kSources[] = {kHalfSpace, kHulls};
 const char* const kPacks[] = {"none", "full"};
 
 tools::Assembly assemble_source(const Source& source, const tools::AssembleOptions& options) {
@@ -112,6 +114,8 @@ std::unique_ptr<Job> make_half_space(const scene::Scene& scene, const MachineTyp
   site.scratch_words = static_cast<std::uint32_t>(integer_of(parameters, "processor.scratch_words"));
   const config::Parameter* mode = parameters.find("video.display_mode");
   site.repeat_field = mode != nullptr && config::to_text(mode->value) == "1";
+  if (half_space::needs_three_registers(scene))
+    return half_space::make_hulls_job(scene, program_for(kHulls, parameters), site);
   return half_space::make_job(scene, program_for(kHalfSpace, parameters), site);
 }
 
@@ -137,6 +141,8 @@ tools::Ucode half_space_program(const config::ParameterSet& parameters) {
 lib::ProgramImage program_image(const std::string& path, const config::ParameterSet& parameters) {
   return program_for({path.c_str(), "rds3000", path.c_str()}, parameters);
 }
+
+tools::Ucode hulls_program(const config::ParameterSet& parameters) { return assemble_for(kHulls, parameters); }
 
 std::vector<Firmware> firmware_list() {
   std::vector<Firmware> list;

@@ -36,6 +36,9 @@ tools::Ucode half_space_program(const config::ParameterSet& parameters);
 /// UserError.
 lib::ProgramImage program_image(const std::string& path, const config::ParameterSet& parameters);
 
+/// The program with three registers as it is assembled for a machine with these parameters.
+tools::Ucode hulls_program(const config::ParameterSet& parameters);
+
 /// A microprogram that ships with dendro, in all its packings.
 struct Firmware {
   std::string name;  ///< "half_space"

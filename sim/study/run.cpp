@@ -158,6 +158,22 @@ stats::RunObject describe(const RunRequest& request) {
   return object;
 }
 
+/// A host program that starts the machine many times comes back to its phases; what they took is told once.
+void add_phases(const Machine& machine, stats::RunObject& object) {
+  for (const Phase& p : machine.phases()) {
+    const double seconds = static_cast<double>(p.cycles) / object.clock_hz;
+    const auto same = std::find_if(object.phases.begin(), object.phases.end(), [&](const stats::PhaseRow& row) {
+      return row.name == p.name && row.on_host == p.on_host;
+    });
+    if (same == object.phases.end()) {
+      object.phases.push_back({p.name, p.cycles, seconds, p.on_host});
+    } else {
+      same->cycles += p.cycles;
+      same->seconds += seconds;
+    }
+  }
+}
+
 void add_counters(const Machine& machine, double seconds, stats::RunObject& object) {
   object.cycles = machine.cycles();
   object.clock_hz = machine.clock_hz();
@@ -165,8 +181,7 @@ void add_counters(const Machine& machine, double seconds, stats::RunObject& obje
   object.machine_cycles = machine.machine_cycles();
   object.instructions = machine.instructions();
   object.time_dependent = machine.time_dependent();
-  for (const Phase& p : machine.phases())
-    object.phases.push_back({p.name, p.cycles, static_cast<double>(p.cycles) / object.clock_hz, p.on_host});
+  add_phases(machine, object);
   for (const UnitStats& u : machine.units()) object.units.push_back({u.unit, u.values});
   for (const MarkEvent& m : machine.marks()) object.marks.emplace_back(m.name, m.tick);
   object.executions = machine.executions();

@@ -8,6 +8,7 @@
 #include "sim/base/error.h"
 #include "sim/study/exec.h"
 #include "sim/study/table.h"
+#include "sim/study/table_fg86_hulls.h"
 
 namespace dendro::study {
 namespace {
@@ -274,6 +275,7 @@ std::vector<TableRow> make(const TableContext& context) {
   for (TableRow& row : plane_rows(context, boxed)) rows.push_back(std::move(row));
   rows.push_back(load_row(boxed, metrics[1], boxed.intervals[1]));
   rows.push_back(addition_row(context));
+  for (TableRow& row : fg86_hull_rows(context)) rows.push_back(std::move(row));
   return rows;
 }
 
@@ -284,9 +286,16 @@ PaperTable fg86_table() {
           {"FG86-A7a, A10: the icosahedron, nominal and over every assumption",
            "FG86-A7b, c: the same without boxing, so that every plane scans the whole box",
            "FG86-A3: a microprogram that waits for a product",
+<<<<<<< HEAD
            "FG86-A17: the icosahedron at level function, microcode packed and not"},
           make,
           [](const TableContext& context) { check_run(timed_request(context, {})); }};
+=======
+           "FG86-A17: the icosahedron at level function, microcode packed and not",
+           "FG86-A12, A18, A20: trees grown with 3 to 8 start normals, their splits counted",
+           "FG86-A33, A34: shipped scenes at level function, their pixel visits and merges"},
+          make};
+>>>>>>> g4
 }
 
 }  // namespace dendro::study

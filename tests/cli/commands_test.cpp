@@ -128,7 +128,10 @@ TEST_F(Commands, TableHasItsRowsAndATolerance) {
     EXPECT_LE(row["low"], row["simulated"]) << row["id"];
     EXPECT_GE(row["high"], row["simulated"]) << row["id"];
   }
-  EXPECT_EQ((std::vector<std::string>{"FG86-A3", "FG86-A7a", "FG86-A7b", "FG86-A7c", "FG86-A10", "FG86-A17"}),
+  EXPECT_EQ((std::vector<std::string>{"FG86-A3",   "FG86-A7a",  "FG86-A7b",  "FG86-A7c",  "FG86-A10",  "FG86-A17",
+                                      "FG86-A12a", "FG86-A12b", "FG86-A12c", "FG86-A12d", "FG86-A12e", "FG86-A12f",
+                                      "FG86-A18a", "FG86-A18b", "FG86-A20",  "FG86-A33a", "FG86-A33b", "FG86-A33c",
+                                      "FG86-A33d", "FG86-A33e", "FG86-A34a", "FG86-A34b"}),
             ids);
   EXPECT_EQ(400.0, rows[0]["simulated"]);
   EXPECT_EQ(1.0, rows[5]["simulated"]);

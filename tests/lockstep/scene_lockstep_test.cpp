@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include <cstdlib>
+#include <sstream>
 #include <string>
 
 #include "models/machines/rds3000/rds3000.h"
@@ -37,7 +38,17 @@ void expect_same_time(const stats::RunObject& a, const stats::RunObject& b) {
   EXPECT_EQ(a.marks, b.marks);
 }
 
-class Scene : public testing::TestWithParam<std::tuple<const char*, const char*>> {};
+class Scene : public testing::TestWithParam<std::tuple<std::string, const char*>> {};
+
+/// Those named in DENDRO_SCENES, else all that are quick enough for every run of the tests.
+std::vector<std::string> shipped_scenes() {
+  const char* named = std::getenv("DENDRO_SCENES");
+  if (named == nullptr) return {"icosahedron", "aspen-hull", "bishop-hull", "pine-hull", "crown", "figure5"};
+  std::vector<std::string> scenes;
+  std::istringstream in(named);
+  for (std::string scene; in >> scene;) scenes.push_back(scene);
+  return scenes;
+}
 
 TEST_P(Scene, HasTheSameTicksCountersAndPictureAtCycleAndClockedAndThePictureAtFunction) {
   const auto& [scene, pack] = GetParam();
@@ -51,15 +62,14 @@ TEST_P(Scene, HasTheSameTicksCountersAndPictureAtCycleAndClockedAndThePictureAtF
   EXPECT_FALSE(cycle.object.time_dependent);
   EXPECT_EQ(cycle.object.instructions, function.object.instructions);
   for (const auto& [name, value] : cycle.object.error.extra)
-    EXPECT_TRUE(name != "wrong_pixels_far" || value == 0) << value;
+    EXPECT_TRUE((name != "wrong_pixels_far" && name != "outside_enclosure") || value == 0) << name << " " << value;
   EXPECT_LE(cycle.object.error.max_depth_error, 1.0);
 }
 
 INSTANTIATE_TEST_SUITE_P(Shipped, Scene,
-                         testing::Combine(testing::Values("icosahedron", "aspen-hull", "bishop-hull", "pine-hull"),
-                                          testing::Values("none", "full")),
+                         testing::Combine(testing::ValuesIn(shipped_scenes()), testing::Values("none", "full")),
                          [](const auto& instance) {
-                           std::string name = std::string(std::get<0>(instance.param)) + "_" + std::get<1>(instance.param);
+                           std::string name = std::get<0>(instance.param) + "_" + std::get<1>(instance.param);
                            for (char& c : name)
                              if (c == '-') c = '_';
                            return name;

@@ -62,6 +62,11 @@ void run(HostPort& host, const Prepared& prepared, const ProgramImage& image, bo
   host.phase("load_program");
   driver.load_program(image);
 
+  if (prepared.growth.flops > 0) {
+    host.phase("grow");
+    host.compute(prepared.growth);
+  }
+
   host.phase("load_planes");
   Work work;
   work.flops = prepared.setup_flops;

@@ -7,6 +7,7 @@
 #include <glm/geometric.hpp>
 #include <stdexcept>
 
+#include "firmware/half_space/host/tree_object.h"
 #include "sim/base/error.h"
 #include "sim/scene/mesh.h"
 #include "sim/scene/view.h"
@@ -72,36 +73,80 @@ scene::PlaneSet listed_planes(const scene::Object& object) {
   return planes;
 }
 
-}  // namespace
+scene::PlaneSet placed(const scene::PlaneSet& own, const scene::Object& object) {
+  const scene::Placement place(object);
+  scene::PlaneSet planes;
+  for (const scene::HalfSpace& plane : own) planes.push_back(place(plane));
+  return planes;
+}
 
-ObjectPlanes object_planes(const scene::Object& object, scene::Options& options) {
+ObjectPlanes grown_planes(const Tree& tree) {
+  ObjectPlanes result;
+  result.grown = true;
+  try {
+    result.growth = grow(tree.growth);
+  } catch (const GrowthError& error) {
+    blame(tree.placed, "object.tree", error.what());
+  }
+  result.planes = placed(result.growth.planes, tree.placed);
+  result.bound = placed(result.growth.relaxed, tree.placed);
+  const scene::Placement place(tree.placed);
+  result.centre = place(glm::dvec3(0.0));
+  for (const glm::dvec3& start : tree.growth.start)
+    result.reach = std::max(result.reach, glm::length(start) * place.scale);
+  return result;
+}
+
+ObjectPlanes given_planes(const scene::Object& object, scene::Options& options) {
   ObjectPlanes result;
   scene::PlaneSet own;
-  std::string key = "object.planes";
   if (!object.mesh.empty()) {
     own = mesh_planes(object, options, result);
-    key = "object.mesh";
-  } else {
-    for (const char* meshes_only : {"planes", "plane_source", "directions"})
-      if (options.has(meshes_only)) options.fail(meshes_only, "goes with an object that is a mesh only");
+  } else if (!object.solid.empty()) {
     const auto& names = scene::solid_names();
-    if (!object.tree.empty())
-      blame(object, "object.tree", "grown trees are not available; give mesh, solid or planes");
-    if (!object.solid.empty()) {
-      if (std::find(names.begin(), names.end(), object.solid) == names.end())
-        blame(object, "object.solid",
-              fmt::format("\"{}\" is not known; must be one of {}", object.solid, fmt::join(names, ", ")));
-      own = scene::solid_planes(object.solid);
-      key = "object.solid";
-    } else {
-      own = listed_planes(object);
-    }
+    if (std::find(names.begin(), names.end(), object.solid) == names.end())
+      blame(object, "object.solid",
+            fmt::format("\"{}\" is not known; must be one of {}", object.solid, fmt::join(names, ", ")));
+    own = scene::solid_planes(object.solid);
+  } else {
+    own = listed_planes(object);
   }
-  if (own.empty()) blame(object, key, "the object has no planes; give mesh, solid or planes");
-  if (own.size() > static_cast<std::size_t>(kMostPlanes))
-    blame(object, key, fmt::format("{} planes are more than the scratchpad's {}", own.size(), kMostPlanes));
-  const scene::Placement place(object);
-  for (const scene::HalfSpace& plane : own) result.planes.push_back(place(plane));
+  result.planes = placed(own, object);
+  return result;
+}
+
+const char* source_key(const scene::Object& object) {
+  if (!object.mesh.empty()) return "object.mesh";
+  if (!object.solid.empty()) return "object.solid";
+  return object.tree.empty() ? "object.planes" : "object.tree";
+}
+
+}  // namespace
+
+void check_mesh_options(const scene::Scene& scene, const scene::Options& options) {
+  for (const scene::Object& object : scene.objects)
+    if (!object.mesh.empty()) return;
+  for (const char* meshes_only : {"planes", "plane_source", "directions"})
+    if (options.has(meshes_only)) options.fail(meshes_only, "goes with an object that is a mesh only");
+}
+
+std::vector<ObjectPlanes> object_planes(const scene::Object& object, scene::Options& options,
+                                        std::uint64_t seed) {
+  std::vector<ObjectPlanes> result;
+  if (object.tree.empty())
+    result.push_back(given_planes(object, options));
+  else
+    for (const Tree& tree : trees_of(object, seed)) result.push_back(grown_planes(tree));
+  const char* key = source_key(object);
+  for (const ObjectPlanes& one : result) {
+    if (one.planes.empty())
+      blame(object, key,
+            one.grown ? "splitting leaves no plane: all are pruned; see keep_parent"
+                      : "the object has no planes; give mesh, solid, planes or tree");
+    if (one.planes.size() > static_cast<std::size_t>(kMostPlanes))
+      blame(object, key,
+            fmt::format("{} planes are more than the scratchpad's {}", one.planes.size(), kMostPlanes));
+  }
   return result;
 }
 

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "firmware/half_space/host/plane_program.h"
+#include "models/parts/host/host_port.h"
 #include "sim/scene/plane_set.h"
 #include "sim/scene/scene.h"
 
@@ -16,6 +17,7 @@ struct Prepared {
   std::vector<ScreenPlane> screen;  ///< same order
   PlaneProgram program;
   std::uint64_t setup_flops = 0;   ///< floating-point operations of S2 and S4 on the host computer
+  Work growth;                     ///< of splitting normals on the host computer (S1)
   std::vector<std::string> files;  ///< what was read
 };
 

@@ -2,32 +2,10 @@
 
 #include <algorithm>
 
+#include "firmware/half_space/reference/stepper.h"
+
 namespace dendro::half_space {
 namespace {
-
-/// The adder that steps a record's depth: 48.16 in 64 bits for wide records, else 16.16 in one word.
-class Stepper {
- public:
-  Stepper(const PlaneRecord& record, SteepPolicy steep)
-      : wide_(record.wide), saturate_(steep == SteepPolicy::kSaturate) {}
-
-  std::int64_t add(std::int64_t a, std::int64_t b) const {
-    const std::int64_t sum = a + b;
-    if (wide_) return sum;
-    if (saturate_) return std::clamp<std::int64_t>(sum, INT32_MIN, INT32_MAX);
-    return word(sum);
-  }
-  /// A record's field as the adder sees it.
-  std::int64_t load(std::int64_t value) const { return wide_ ? value : word(value); }
-
- private:
-  static std::int64_t word(std::int64_t value) {
-    return static_cast<std::int32_t>(static_cast<std::uint32_t>(value));
-  }
-
-  bool wide_;
-  bool saturate_;
-};
 
 class Passes {
  public:
@@ -83,14 +61,8 @@ class Passes {
 
   template <typename F>
   void scan(const PlaneRecord& plane, F&& next) {
-    const Stepper step(plane, program_.steep);
-    const std::int64_t step_x = step.load(plane.step_x), step_y = step.load(plane.step_y);
-    std::int64_t line = step.load(plane.start);
-    for (int y = program_.box.y0; y <= program_.box.y1; ++y, line = step.add(line, step_y)) {
-      std::int64_t value = line;
-      for (int x = program_.box.x0; x <= program_.box.x1; ++x, value = step.add(value, step_x))
-        pixel(x, y) = next(pixel(x, y), value);
-    }
+    step_over(plane, program_.box, program_.steep,
+              [&](int x, int y, std::int64_t value) { pixel(x, y) = next(pixel(x, y), value); });
   }
 
   const PlaneProgram& program_;

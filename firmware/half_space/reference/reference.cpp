@@ -47,14 +47,14 @@ bool is_interior(const ReferencePicture& picture, int x, int y) {
   return true;
 }
 
+}  // namespace
+
 std::optional<double> psnr(const std::vector<std::uint8_t>& a, const std::uint8_t* b) {
   double squares = 0;
   for (std::size_t i = 0; i < a.size(); ++i) squares += std::pow(double(a[i]) - double(b[i]), 2);
   if (squares == 0) return std::nullopt;
   return 10.0 * std::log10(255.0 * 255.0 * static_cast<double>(a.size()) / squares);
 }
-
-}  // namespace
 
 ReferencePicture render_reference(const std::vector<ScreenPlane>& planes, const std::vector<Rgb>& shades,
                                   int width, int height, int maxdepth) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "firmware/half_space/host/prepare.h"
@@ -31,6 +32,9 @@ struct SimulatedPicture {
 };
 
 SimulatedPicture read_back(const MachineView& machine, int width, int height);
+
+/// Peak signal-to-noise ratio of 8-bit samples; none: identical.
+std::optional<double> psnr(const std::vector<std::uint8_t>& a, const std::uint8_t* b);
 
 /// Figures: psnr over the shown RGB (the machine's `rgb`, same size); max_depth_error = largest |front + 1/2
 /// - z| over pixels whose face agrees; wrong_pixels = coverage or face differs; extra: wrong_pixels_far =

@@ -218,7 +218,7 @@ TEST(Prepare, WhatTheAlgorithmDoesNotDoIsRefused) {
   EXPECT_REFUSED(scene, "camera.projection");
   scene = icosahedron();
   scene.objects[0].solid.clear();
-  scene.objects[0].tree = "pine";
+  scene.objects[0].tree = "palm";
   EXPECT_REFUSED(scene, "object.tree");
   scene = icosahedron();
   scene.objects[0].solid = "sphere";

@@ -1,0 +1,46 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "firmware/half_space/host/prepare_hulls.h"
+#include "firmware/job.h"
+
+namespace dendro::half_space {
+
+/// The picture in double precision, straight from the planes: per pixel the least front depth of all hulls
+/// that cover it. Knows nothing of records, boxes or fixed point.
+struct HullsReference {
+  int width = 0, height = 0;
+  std::vector<double> depth;            ///< per pixel: in register units; maxdepth where no hull is
+  std::vector<int> hull;                ///< per pixel: index of the hull seen, -1: background
+  std::vector<std::uint8_t> unbounded;  ///< per pixel: 1 where a hull has no back plane and no hull is seen
+  std::vector<std::uint8_t> rgb;        ///< through the shades
+
+  /// What the integers may make of it: the third register lies in lower..upper. They differ where a hull is
+  /// thinner than one unit of depth, or its edge nearer than the drift of the steps.
+  std::vector<int> lower, upper;
+};
+
+HullsReference render_hulls_reference(const PreparedHulls& prepared);
+
+/// Share of the pixels with a hull where that is unbounded: one hull alone, seen through a register of
+/// `maxdepth`. 0 without any such pixel.
+struct UnboundedPixels {
+  std::int64_t unbounded = 0, covered = 0;
+
+  double share() const {
+    return unbounded == 0 ? 0.0 : static_cast<double>(unbounded) / static_cast<double>(unbounded + covered);
+  }
+};
+
+UnboundedPixels count_unbounded(const std::vector<ScreenPlane>& planes, int width, int height, int maxdepth);
+
+/// `nearest`: the third register of every pixel. Figures: psnr over the shown RGB; wrong_pixels = covered in
+/// one but not in the other; max_depth_error = largest |nearest + 1/2 - z| where one hull and nothing else
+/// can be seen; extra: outside_enclosure = pixels whose register is not in lower..upper (none, if the merge
+/// is right), unbounded_pixels, unbounded_share.
+ErrorReport compare(const HullsReference& reference, const std::vector<std::uint8_t>& nearest, int maxdepth,
+                    const std::uint8_t* rgb);
+
+}  // namespace dendro::half_space
