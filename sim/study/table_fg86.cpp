@@ -286,16 +286,11 @@ PaperTable fg86_table() {
           {"FG86-A7a, A10: the icosahedron, nominal and over every assumption",
            "FG86-A7b, c: the same without boxing, so that every plane scans the whole box",
            "FG86-A3: a microprogram that waits for a product",
-<<<<<<< HEAD
-           "FG86-A17: the icosahedron at level function, microcode packed and not"},
-          make,
-          [](const TableContext& context) { check_run(timed_request(context, {})); }};
-=======
            "FG86-A17: the icosahedron at level function, microcode packed and not",
            "FG86-A12, A18, A20: trees grown with 3 to 8 start normals, their splits counted",
            "FG86-A33, A34: shipped scenes at level function, their pixel visits and merges"},
-          make};
->>>>>>> g4
+          make,
+          [](const TableContext& context) { check_run(timed_request(context, {})); }};
 }
 
 }  // namespace dendro::study
