@@ -35,7 +35,8 @@ scene::Scene tree_scene(int start_normals, double angle, int generations, std::i
   scene.options = scene::Options("half_space");
   scene::Object tree;
   tree.tree = "round";
-  tree.rotate = {37.0 * static_cast<double>(seed), 137.5 * static_cast<double>(seed), 0};  // another view of each
+  tree.rotate = {37.0 * static_cast<double>(seed), 137.5 * static_cast<double>(seed),
+                 0};  // another view of each
   const auto set = [&](const char* key, auto value) { tree.tree_parameters[key] = {value, {}}; };
   set("start_normals", std::int64_t{start_normals});
   set("generations", std::int64_t{generations});
