@@ -71,8 +71,8 @@ std::vector<TableRow> start_rows() {
     }
     r.assumptions = {"DEV-045"};
     r.reading =
-        "\"three to six give the best results\": share of the pixels with a crown where no plane bounds it "
-        "behind";
+        "\"three to six give the best results\": share of the pixels with a crown, in a picture five radii "
+        "high, where no plane bounds it behind";
     r.note = fmt::format(
         "{} trees split once by 30 degrees, interval from 15 to 50; unsplit {:.3g} %, split twice {:.3g} %",
         kTrees, open_percentage(normals, 30, 0), open_percentage(normals, 30, 2));
