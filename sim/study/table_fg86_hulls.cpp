@@ -35,7 +35,8 @@ scene::Scene tree_scene(int start_normals, double angle, int generations, std::i
   scene.options = scene::Options("half_space");
   scene::Object tree;
   tree.tree = "round";
-  tree.rotate = {37.0 * static_cast<double>(seed), 137.5 * static_cast<double>(seed), 0};  // another view of each
+  tree.rotate = {37.0 * static_cast<double>(seed), 137.5 * static_cast<double>(seed),
+                 0};  // another view of each
   const auto set = [&](const char* key, auto value) { tree.tree_parameters[key] = {value, {}}; };
   set("start_normals", std::int64_t{start_normals});
   set("generations", std::int64_t{generations});
@@ -70,8 +71,8 @@ std::vector<TableRow> start_rows() {
     }
     r.assumptions = {"DEV-045"};
     r.reading =
-        "\"three to six give the best results\": share of the pixels with a crown where no plane bounds it "
-        "behind";
+        "\"three to six give the best results\": share of the pixels with a crown, in a picture five radii "
+        "high, where no plane bounds it behind";
     r.note = fmt::format(
         "{} trees split once by 30 degrees, interval from 15 to 50; unsplit {:.3g} %, split twice {:.3g} %",
         kTrees, open_percentage(normals, 30, 0), open_percentage(normals, 30, 2));

@@ -32,7 +32,9 @@ class Preparation {
   Prepared make() {
     options_.integer("registers", 2, 2, 3);
     check_mesh_options(scene_, options_);
-    object_ = std::move(object_planes(scene_.objects[0], options_, scene_.seed).front());
+    std::vector<ObjectPlanes> objects = object_planes(scene_.objects[0], options_, scene_.seed);
+    if (objects.size() > 1) blame_object("copies need the third register");
+    object_ = std::move(objects.front());
     result_.world = object_.planes;
     result_.files = object_.files;
     if (object_.grown) result_.growth = growth_work(object_.growth);

@@ -130,7 +130,13 @@ class HullsPreparation {
   SteepPolicy steep_ = SteepPolicy::kWide;
 };
 
-bool has_copies(const scene::Object& object) { return object.tree_parameters.count("copies") != 0; }
+/// A value of the wrong kind is left to those who read the tree's parameters.
+bool has_copies(const scene::Object& object) {
+  const auto copies = object.tree_parameters.find("copies");
+  if (copies == object.tree_parameters.end()) return false;
+  const auto* count = std::get_if<std::int64_t>(&copies->second.value);
+  return count != nullptr && *count > 1;
+}
 
 }  // namespace
 
