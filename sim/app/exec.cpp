@@ -55,9 +55,10 @@ int execute(const study::Catalogue& catalogue, Options options) {
       fmt::print("scratch[{}] = 0x{:08x}\n", options.exec.dumps[i].first + n, output.dumps[i][n]);
   const stats::RunObject& run = output.object;
   if (!options.quiet && options.json != "-")
-    fmt::print("{}:{} level {}: {} microinstructions, {} cycles{}, exit code {}\n", run.machine, run.preset,
-               run.level, stats::grouped(static_cast<std::int64_t>(run.instructions)),
-               stats::grouped(run.cycles), run.cycles > 0 ? " = " + stats::readable_seconds(run.seconds) : "",
+    fmt::print("{}:{} level {}: {} microinstructions, {}, exit code {}\n", run.machine, run.preset, run.level,
+               stats::grouped(static_cast<std::int64_t>(run.instructions)),
+               run.has_time() ? stats::grouped(run.cycles) + " cycles = " + stats::readable_seconds(run.seconds)
+                              : "no time at this level",
                output.exit_code);
   json.commit(study::exec_json(output));
   return kGood;

@@ -160,6 +160,106 @@ TEST_F(BadInput, BadUcode) {
   expect_user_error("disasm rds3000 p.ucode", "p.ucode");
 }
 
+TEST_F(BadInput, UnknownKeysComeBeforeWhatTheirValuesBreak) {
+  write("m.obj", kTetrahedron);
+  write("s.toml", scene_with("mesh = \"m.obj\"\n", "[half_space]\nplane = 60\n"));
+  expect_user_error("run s.toml", "s.toml:13: half_space.plane: unknown key; did you mean `planes`?");
+  expect_user_error("run icosahedron --set camera.hieght=3 --set image.width=0",
+                    "--set: camera.hieght: unknown key; did you mean `height`?");
+  expect_user_error("run icosahedron --set parameters.processor.tick_ns=fast --set parameters.bus.write_tick=1",
+                    "bus.write_tick: the machine has no such parameter");
+}
+
+TEST_F(BadInput, KeysThatCannotGoTogether) {
+  expect_user_error("run icosahedron --set camera.fov_y=40", "--set: camera.fov_y: goes with projection");
+  expect_user_error("run icosahedron --set object.0.units=mm", "--set: object.0.units: goes with a mesh");
+  expect_user_error("run icosahedron --set 'object.0.groups={ a = \"b\" }'", "--set: object.0.groups");
+}
+
+TEST_F(BadInput, IsBlamedOnThePlaceThatSaidIt) {
+  write("m.obj", "v 1 1 1\nf 1 2 4\n");
+  write("s.toml", scene_with("mesh = \"m.obj\"\n"));
+  expect_user_error("run s.toml", "(the mesh of s.toml:11)");
+  write("t.toml", "level = \"estimate\"\n" + scene_with("solid = \"icosahedron\"\n"));
+  expect_user_error("run t.toml", "t.toml:1: level: rds3000 has no level `estimate`: known are function, cycle");
+  write("u.toml", "include = \"icosahedron\"\n[image]\nheight = 5\nwidth = 513\n");
+  expect_user_error("run u.toml", "u.toml:4: image.width: 513");
+  expect_user_error("run icosahedron --set image.width=513", "--set: image.width: 513");
+  expect_user_error("run icosahedron --set parameters.processor.scratch_words=16",
+                    "--set: processor.scratch_words: the firmware half_space cannot run on this machine: ");
+}
+
+TEST_F(BadInput, NumbersAreNotClamped) {
+  for (const char* seed : {"-1", "9223372036854775808", "18446744073709551616", "1.5", "x"})
+    expect_user_error(std::string("run icosahedron --seed ") + seed, "is not an integer in 0..9223372036854775807");
+  expect_user_error("run icosahedron --limit 99999999999999999999", "--limit: ");
+  expect_user_error("table --tolerance 1e999", "--tolerance: ");
+  expect_user_error("table --tolerance nan", "--tolerance: ");
+  expect_user_error("levels icosahedron --budget 1e999", "--budget: ");
+}
+
+TEST_F(BadInput, EmptyWordsAndOptionsThatLackAnother) {
+  for (const char* option : {"--machine", "--json", "--out", "--level", "--vcd"})
+    expect_user_error(std::string("run icosahedron ") + option + " ''", option);
+  for (const char* option : {"--vcd-from 3", "--vcd-to 3", "--vcd-units rds3000.bus"})
+    expect_user_error(std::string("run icosahedron ") + option, "requires --vcd");
+  expect_user_error("run icosahedron --level clocked --vcd w.vcd --vcd-from 50 --vcd-to 10",
+                    "ticks 50 up to 10 are none");
+  expect_user_error("--bogus", "--bogus: unknown option");
+}
+
+TEST_F(BadInput, AnOutputThatIsTheInput) {
+  write("p.gia", "entry s;\ns:\n  halt;\n");
+  std::filesystem::create_symlink("p.gia", folder_ / "link.gia");
+  ASSERT_EQ(0, dendro("asm rds3000 p.gia -o p.ucode").status);
+  const std::string source = read("p.gia"), program = read("p.ucode");
+  expect_user_error("asm rds3000 p.gia -o p.gia", "--out: p.gia");
+  expect_user_error("asm rds3000 p.gia -o ../work/link.gia", "--out: ");
+  expect_user_error("asm rds3000 p.gia -o q.ucode --listing link.gia", "--listing: ");
+  expect_user_error("asm rds3000 p.gia -o q.ucode --listing ./q.ucode", "--listing: ");
+  expect_user_error("disasm rds3000 p.ucode -o ./p.ucode", "--out: ");
+  EXPECT_EQ(source, read("p.gia"));
+  EXPECT_EQ(program, read("p.ucode"));
+}
+
+TEST_F(BadInput, OutputsThatFailLeaveNothing) {
+  expect_user_error("run icosahedron --set image.width=64 --json /dev/full --out run", "/dev/full");
+  for (const char* command : {"scenes", "machines rds3000", "run icosahedron --out run"}) {
+    const int status = std::system(("cd '" + folder_.string() + "' && '" DENDRO "' " + command +
+                                    " >/dev/full 2>/dev/null </dev/null")
+                                       .c_str());
+    EXPECT_EQ(2, WEXITSTATUS(status)) << command;
+  }
+}
+
+TEST_F(BadInput, ATableRefusesBeforeItPrintsItsPlan) {
+  expect_user_error("table --set image.width=600", "image.width");
+  expect_user_error("table --set parameters.processor.scratch_words=16", "processor.scratch_words");
+  expect_user_error("table --level estimate", "--level: rds3000 has no level");
+  expect_user_error("table --level function", "needs a level with time");
+}
+
+TEST_F(BadInput, AWorkingDirectoryThatIsGone) {
+  std::filesystem::create_directory(folder_ / "gone");
+  const Result result = dendro("scenes; cd gone; rmdir ../gone; '" DENDRO "' run icosahedron");
+  EXPECT_EQ(2, result.status);
+  EXPECT_EQ(0u, result.err.find("dendro: the working directory cannot be used")) << result.err;
+  EXPECT_EQ(1, std::count(result.err.begin(), result.err.end(), '\n')) << result.err;
+}
+
+TEST_F(BadInput, DumpsOfNothing) {
+  write("p.gia", "entry s;\ns:\n  halt;\n");
+  for (const char* dump : {"0:0", ":", "0:", "x", "8192"})
+    expect_user_error(std::string("exec rds3000 p.gia --dump ") + dump, "--dump");
+}
+
+TEST_F(BadInput, ControlCharactersAreNotPrinted) {
+  write("p.ucode", "dendro-ucode 1\nmachine a\033[31m\n");
+  const Result result = dendro("exec rds3000 p.ucode");
+  EXPECT_EQ(2, result.status);
+  EXPECT_NE(std::string::npos, result.err.find("a\\x1b[31m")) << result.err;
+}
+
 TEST_F(BadInput, CommandLines) {
   expect_user_error("", "a command is missing");
   expect_user_error("draw", "draw: there is no such command");

@@ -4,6 +4,9 @@
 
 #include <filesystem>
 #include <fstream>
+#include <iterator>
+#include <regex>
+#include <string>
 
 #include "sim/base/error.h"
 #include "sim/base/sha256.h"
@@ -48,6 +51,16 @@ TEST(Exr, KeepsFloatsAndTheNamesOfItsLayers) {
     }
     EXPECT_TRUE(found) << channel.first;
   }
+  std::filesystem::remove(path);
+}
+
+TEST(Exr, HoldsNoTimeOfDay) {
+  const std::string path = temporary("timeless.exr");
+  write_exr(path, 1, 1, {{"R", {0.5f}}});
+  std::ifstream in(path, std::ios::binary);
+  const std::string bytes(std::istreambuf_iterator<char>(in), {});
+  ASSERT_FALSE(bytes.empty());
+  EXPECT_FALSE(std::regex_search(bytes, std::regex("[0-9]{4}:[0-9]{2}:[0-9]{2}")));
   std::filesystem::remove(path);
 }
 

@@ -99,5 +99,24 @@ TEST(Text, GroupsThousands) {
   EXPECT_EQ("-60,123,456", grouped(-60123456));
 }
 
+TEST(RunObject, HasNoFiguresOfTimeAtLevelFunction) {
+  RunObject run = example();
+  run.level = "function";
+  run.cycles = run.machine_cycles = 0;
+  run.seconds = 0;
+  run.phases.clear();
+  run.units.clear();
+  run.notes = {"a note"};
+  const std::string text = to_json(run);
+  const Json json = Json::parse(text);
+  for (const char* key : {"cycles", "seconds", "seconds_low", "seconds_high", "machine_cycles"})
+    EXPECT_TRUE(json.at(key).is_null()) << key;
+  EXPECT_EQ(Json::array(), json.at("phases"));
+  EXPECT_EQ(Json::object(), json.at("units"));
+  EXPECT_EQ(text, to_json(from_json(text)));
+  EXPECT_NE(std::string::npos, to_csv(run).find("\ncycles,\n"));
+  EXPECT_NE(std::string::npos, to_summary(run).find("  note: a note\n"));
+}
+
 }  // namespace
 }  // namespace dendro::stats

@@ -153,5 +153,53 @@ TEST(Packing, LeavesVerbatimWordsAndOldProductsAlone) {
   EXPECT_EQ(u.words[1], 0xe000064000000000u);
 }
 
+/// The same program for a machine whose products come later.
+tools::Ucode filled(const std::string& source, int multiply_ticks, const std::string& pack) {
+  AssembleOptions o;
+  o.multiply_ticks = multiply_ticks;
+  o.pack = pack;
+  o.fill_products = true;
+  return assemble(source, "t.gia", o).ucode;
+}
+
+TEST(FillingProducts, ChangesNoProgramThatWaitsAlready) {
+  for (std::uint32_t seed = 1; seed <= 60; ++seed) {
+    const std::string source = testing::random_source(seed, 3, false);
+    AssembleOptions o;
+    o.multiply_ticks = 3;
+    EXPECT_EQ(assemble(source, "t.gia", o).ucode, filled(source, 3, "none")) << "seed " << seed;
+  }
+}
+
+TEST(FillingProducts, WaitsForTheProductOnEveryWayToItsWord) {
+  const char* const source = "mul signed, goto a; b: r1 = r1 + 1; a: r0 = product; halt;";
+  EXPECT_THROW(packed(source, 2), UserError);
+  const tools::Ucode ucode = filled(source, 4, "none");
+  EXPECT_EQ(ucode.words.size(), 7u);
+  EXPECT_EQ(ucode.symbols.at("a"), 2u);
+  EXPECT_THROW(filled("mul signed; r0 = product; if (zero) goto 3; halt;", 4, "none"), UserError);
+}
+
+TEST(FillingProducts, ChangesNoResult) {
+  int longer = 0;
+  for (std::uint32_t seed = 2001; seed <= 2200 && !::testing::Test::HasFailure(); ++seed) {
+    const std::string source = testing::random_source(seed, 2, seed % 2 == 0);
+    // What is `old` depends on how late products are, so such a program is another one.
+    if (source.find("old(product") != std::string::npos) continue;
+    SCOPED_TRACE("seed " + std::to_string(seed) + "\n" + source);
+    AssembleOptions plain;
+    plain.multiply_ticks = 2;
+    const tools::Ucode before = assemble(source, "t.gia", plain).ucode;
+    const bps32::ProcessorState start = testing::random_state(seed);
+    const testing::MachineRun wanted = testing::run_program(before, start, 5000);
+    for (const char* pack : {"none", "full"}) {
+      const tools::Ucode late = filled(source, 5, pack);
+      expect_same(wanted, testing::run_program(late, start, 20000));
+      longer += late.words.size() > before.words.size() ? 1 : 0;
+    }
+  }
+  EXPECT_GT(longer, 20);
+}
+
 }  // namespace
 }  // namespace dendro

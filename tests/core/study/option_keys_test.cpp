@@ -1,0 +1,55 @@
+#include <algorithm>
+#include <sstream>
+
+#include "models/machines/rds3000/rds3000.h"
+#include "sim/study/algorithms.h"
+#include "tests/core/study/fake_machine.h"
+
+namespace dendro::study {
+namespace {
+
+using OptionKeys = fake::TestFolder;
+
+const char* const kTetrahedron =
+    "v 1 1 1\nv -1 -1 1\nv -1 1 -1\nv 1 -1 -1\nf 1 2 4\nf 1 3 2\nf 1 4 3\nf 2 3 4\n";
+
+/// The keys that a job has asked for, as its error about a key that is like none of them lists them.
+std::vector<std::string> keys_in(std::string message) {
+  const std::string before = "allowed: ";
+  const auto at = message.find(before);
+  if (at == std::string::npos) return {message};
+  message.erase(0, at + before.size());
+  message.erase(std::remove(message.begin(), message.end(), ','), message.end());
+  std::istringstream words(message);
+  return {std::istream_iterator<std::string>(words), {}};
+}
+
+TEST_F(OptionKeys, OfEveryAlgorithmAreThoseThatItsJobReads) {
+  const std::string mesh = write("m.obj", kTetrahedron);
+  const MachineType type = rds3000::rds3000_type();
+  const Catalogue all{{type}, algorithms(), "/nowhere"};
+  const config::Preset preset = config::load_preset(type.name, all.presets(), {});
+  for (const Algorithm& algorithm : algorithms()) {
+    if (std::find(algorithm.machines.begin(), algorithm.machines.end(), type.name) == algorithm.machines.end())
+      continue;
+    SceneFile file = load_scene(write("s.toml", "algorithm = \"" + algorithm.name +
+                                                    "\"\n[image]\nwidth = 8\nheight = 8\n"
+                                                    "[camera]\nheight = 4\nposition = [0, 0, 4]\n"
+                                                    "[[object]]\nmesh = \"" + mesh + "\"\n"),
+                                {}, all);
+    file.scene.options.set(std::string(60, 'z'), {std::int64_t{1}, {}});
+    std::string message = "no error";
+    try {
+      algorithm.make(file.scene, type, preset.parameters);
+    } catch (const UserError& error) {
+      message = error.message();
+    }
+    std::vector<std::string> read = keys_in(message), declared = algorithm.option_keys;
+    std::sort(read.begin(), read.end());
+    std::sort(declared.begin(), declared.end());
+    EXPECT_EQ(read, declared) << algorithm.name;
+  }
+}
+
+}  // namespace
+}  // namespace dendro::study
