@@ -99,7 +99,8 @@ std::pair<std::size_t, int> first_too_early(const Program& program, const std::v
                                             int multiply_ticks) {
   const std::vector<int> under_way = products_under_way(words, multiply_ticks, true);
   for (std::size_t i = 0; i < words.size(); ++i) {
-    const bool early = starts_multiply(words[i]) || (reads_product(words[i]) && !program.micros[i].old_product);
+    const bool early =
+        starts_multiply(words[i]) || (reads_product(words[i]) && !program.micros[i].old_product);
     if (under_way[i] > 0 && early) return {i, under_way[i]};
   }
   return {0, 0};

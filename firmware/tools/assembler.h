@@ -13,8 +13,8 @@ struct AssembleOptions {
   std::string pack = "none";  ///< "none": a line is a word; "full": words are merged where nothing changes
   int multiply_ticks = 2;     ///< words from a start to its product, 1 to 64
   unsigned scratch_words = 8192;  ///< size of the scratchpad, 1 to 8,192
-  /// Words without effect are inserted where a product would be taken, or a multiplication started, too early;
-  /// without it that is an error. A source that branches to numbers cannot be filled.
+  /// Words without effect are inserted where a product would be taken, or a multiplication started, too
+  /// early; without it that is an error. A source that branches to numbers cannot be filled.
   bool fill_products = false;
   unsigned control_words = 4096;  ///< words that a program may have, at most one page of 4,096
 };

@@ -21,8 +21,8 @@ CLI::Validator some_text();
 /// Throws UserError for a waveform window that shows no tick.
 void check_window(const MachineOptions& options);
 
-/// Throws UserError at `option` when both paths name one file, through whatever links or folders. An empty path
-/// or "-" names none.
+/// Throws UserError at `option` when both paths name one file, through whatever links or folders. An empty
+/// path or "-" names none.
 void refuse_same_file(const std::string& option, const std::string& path, const std::string& other_name,
                       const std::string& other);
 

@@ -52,15 +52,17 @@ void add_asm(CLI::App& app, const study::Catalogue& catalogue, Action& action) {
   CLI::App* assembler = app.add_subcommand("asm", "assemble a microprogram");
   assembler->add_option("machine", o->machine, "rds3000")->required();
   assembler->add_option("in", o->in, "source, .gia")->required();
-  assembler->add_option("-o,--out", o->out, ".ucode file; - is standard output")->required()->check(some_text());
+  assembler->add_option("-o,--out", o->out, ".ucode file; - is standard output")
+      ->required()
+      ->check(some_text());
   assembler->add_option("--pack", o->assemble.pack, "none: a line is a word; full: words are merged")
       ->check(CLI::IsMember({"none", "full"}));
   assembler->add_option("--multiply-ticks", o->assemble.multiply_ticks, "latency of the multiplier")
       ->check(whole_number(1, 64));
   assembler->add_flag("--fill-products", o->assemble.fill_products,
                       "insert words without effect where a product would be taken too early");
-  assembler->add_option("--listing", o->listing,
-                        "listing with addresses, words and ticks; - is standard output")
+  assembler
+      ->add_option("--listing", o->listing, "listing with addresses, words and ticks; - is standard output")
       ->check(some_text());
   assembler->callback([&, o] {
     action = [&catalogue, o] {

@@ -33,7 +33,8 @@ void add_bench(CLI::App& app, const study::Catalogue& catalogue, Action& action)
   CLI::App* command = app.add_subcommand("bench", "host speed of each machine and level");
   command->add_option("--level", o->level, "only this level")->check(some_text());
   command->add_option("--set", o->settings, "key=value of the scene that is run")->allow_extra_args(false);
-  command->add_option("--repeats", o->repeats, "runs, of which the best counts")->check(whole_number(1, 1000));
+  command->add_option("--repeats", o->repeats, "runs, of which the best counts")
+      ->check(whole_number(1, 1000));
   command->add_option("--json", o->json, "also write the rows here; - is standard output")
       ->check(some_text());
   command->add_option("--progress", o->progress, "auto, on or off")

@@ -30,7 +30,8 @@ std::uint32_t number(const std::string& text, const std::string& whole) {
     used = 0;
   }
   if (used == 0 || used != text.size() || value > UINT32_MAX)
-    throw UserError("--dump", 0, "", "`" + whole + "` is not ADDRESS or ADDRESS:COUNT, as in 16, 16:8 or 0x10:8");
+    throw UserError("--dump", 0, "",
+                    "`" + whole + "` is not ADDRESS or ADDRESS:COUNT, as in 16, 16:8 or 0x10:8");
   return static_cast<std::uint32_t>(value);
 }
 
@@ -57,8 +58,9 @@ int execute(const study::Catalogue& catalogue, Options options) {
   if (!options.quiet && options.json != "-")
     fmt::print("{}:{} level {}: {} microinstructions, {}, exit code {}\n", run.machine, run.preset, run.level,
                stats::grouped(static_cast<std::int64_t>(run.instructions)),
-               run.has_time() ? stats::grouped(run.cycles) + " cycles = " + stats::readable_seconds(run.seconds)
-                              : "no time at this level",
+               run.has_time()
+                   ? stats::grouped(run.cycles) + " cycles = " + stats::readable_seconds(run.seconds)
+                   : "no time at this level",
                output.exit_code);
   json.commit(study::exec_json(output));
   return kGood;
@@ -75,9 +77,9 @@ void add_exec(CLI::App& app, const study::Catalogue& catalogue, Action& action) 
   command->add_option("args", o->arguments, "arguments of the program, after --");
   command->add_option("--level", o->exec.level, "function, cycle or clocked")->check(some_text());
   command->add_option("--set", o->exec.settings, "key=value of the machine")->allow_extra_args(false);
-  command->add_option("--limit", machine.tick_limit, "ticks the processor may run")
-      ->check(whole_number(1));
-  command->add_option("--dump", o->dumps, "ADDRESS[:COUNT] scratch words to print; one word without COUNT")->allow_extra_args(false);
+  command->add_option("--limit", machine.tick_limit, "ticks the processor may run")->check(whole_number(1));
+  command->add_option("--dump", o->dumps, "ADDRESS[:COUNT] scratch words to print; one word without COUNT")
+      ->allow_extra_args(false);
   command->add_option("--json", o->json, "also write the result here; - is standard output")
       ->check(some_text());
   command->add_option("--progress", o->progress, "auto, on or off")

@@ -67,8 +67,7 @@ std::string complaint(const CLI::App& app, const CLI::ParseError& error, int arg
   if (app.get_subcommands().empty() && (first.empty() || first[0] != '-'))
     return (first.empty() ? "a command is missing" : first + ": there is no such command") + ": known are " +
            names_of(app);
-  if (app.get_subcommands().empty())
-    return first + ": unknown option (dendro --help says what is allowed)";
+  if (app.get_subcommands().empty()) return first + ": unknown option (dendro --help says what is allowed)";
   const std::string command =
       app.get_subcommands().empty() ? "" : " " + app.get_subcommands().front()->get_name();
   return std::string(error.what()) + " (dendro" + command + " --help says what is allowed)";

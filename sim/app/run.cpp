@@ -86,8 +86,9 @@ void add_run(CLI::App& app, const study::Catalogue& catalogue, Action& action) {
   command->add_option("scene", o->run.scene, "built-in scene or scene file")->required();
   command->add_option("--machine", o->run.machine, "NAME[:PRESET] or FILE.toml; default: the scene's")
       ->check(some_text());
-  command->add_option("--level", o->run.level,
-                      "function, estimate, cycle or clocked; default: the scene's, else cycle")
+  command
+      ->add_option("--level", o->run.level,
+                   "function, estimate, cycle or clocked; default: the scene's, else cycle")
       ->check(some_text());
   command->add_option("--set", o->run.settings, "key=value of the scene; parameters.* are the machine's")
       ->allow_extra_args(false);

@@ -69,9 +69,9 @@ bool assembles(const Source& source, const tools::AssembleOptions& options) {
                                      {"processor.control_store_words", control}}) {
     if (!assembles(source, changed)) continue;
     const config::Where where = parameters.find(key)->where;
-    throw UserError(where.file, where.line, key,
-                    std::string("the firmware ") + source.name +
-                        " cannot run on this machine: " + error.message());
+    throw UserError(
+        where.file, where.line, key,
+        std::string("the firmware ") + source.name + " cannot run on this machine: " + error.message());
   }
   throw;
 }

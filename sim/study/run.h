@@ -53,8 +53,8 @@ RunRequest prepare_run(const Catalogue& catalogue, const RunArguments& arguments
 /// The level named, if the machine has it. Throws UserError at `where`.
 Level level_of(const std::string& name, const MachineType& type, const config::Where& where = {"--level", 0});
 
-/// Prepares the scene for its machine and throws UserError for all that a run would refuse. Throws away what it
-/// made; no SystemC.
+/// Prepares the scene for its machine and throws UserError for all that a run would refuse. Throws away what
+/// it made; no SystemC.
 void check_run(const RunRequest& request);
 
 /// One run in this process; pictures are written into `folder` unless it is empty. At levels with time this

@@ -203,8 +203,7 @@ void interpret(SceneFile& file, const Catalogue& catalogue) {
   s.machine = root.text("machine", catalogue.algorithm(s.algorithm)->machines.front());
   file.machine_where = root.where("machine");
   file.preset_label = root.text("preset", "");
-  if (root.has("level"))
-    file.level = root.text("level", "");
+  if (root.has("level")) file.level = root.text("level", "");
   file.level_where = root.where("level");
   s.seed = static_cast<std::uint64_t>(root.integer("seed", 1, 0, INT64_MAX));
   s.image = read_image(root);

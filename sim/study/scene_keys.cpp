@@ -61,8 +61,7 @@ void check_object(const Node& object, const std::string& path) {
   check_names(object, path,
               {"mesh", "solid", "planes", "tree", "at", "rotate", "scale", "units", "up_axis", "groups"});
   if (object.member("mesh") != nullptr) return;
-  if (const Node* groups = object.member("groups"))
-    fail(*groups, path + ".groups", "goes with a mesh only");
+  if (const Node* groups = object.member("groups")) fail(*groups, path + ".groups", "goes with a mesh only");
   if (const Node* units = object.member("units"); units != nullptr && object.member("solid") != nullptr)
     fail(*units, path + ".units", "goes with a mesh or planes; a solid has its corners on a sphere of 1 m");
 }
@@ -76,8 +75,8 @@ void check_pins(const Node& document, const char* list, const char* name) {
 }  // namespace
 
 void check_keys(const Node& document, const Catalogue& catalogue) {
-  Keys root = {"algorithm", "machine", "image", "camera", "light", "object", "parameters", "seed", "level",
-               "name", "preset", "description", "build", "input", "firmware"};
+  Keys root = {"algorithm", "machine", "image",  "camera",      "light", "object", "parameters", "seed",
+               "level",     "name",    "preset", "description", "build", "input",  "firmware"};
   const Algorithm* algorithm = nullptr;
   for (const Algorithm& a : catalogue.algorithms)
     if (is_text(document.member("algorithm"), a.name.c_str())) algorithm = &a;

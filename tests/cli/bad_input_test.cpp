@@ -166,8 +166,9 @@ TEST_F(BadInput, UnknownKeysComeBeforeWhatTheirValuesBreak) {
   expect_user_error("run s.toml", "s.toml:13: half_space.plane: unknown key; did you mean `planes`?");
   expect_user_error("run icosahedron --set camera.hieght=3 --set image.width=0",
                     "--set: camera.hieght: unknown key; did you mean `height`?");
-  expect_user_error("run icosahedron --set parameters.processor.tick_ns=fast --set parameters.bus.write_tick=1",
-                    "bus.write_tick: the machine has no such parameter");
+  expect_user_error(
+      "run icosahedron --set parameters.processor.tick_ns=fast --set parameters.bus.write_tick=1",
+      "bus.write_tick: the machine has no such parameter");
 }
 
 TEST_F(BadInput, KeysThatCannotGoTogether) {
@@ -181,7 +182,8 @@ TEST_F(BadInput, IsBlamedOnThePlaceThatSaidIt) {
   write("s.toml", scene_with("mesh = \"m.obj\"\n"));
   expect_user_error("run s.toml", "(the mesh of s.toml:11)");
   write("t.toml", "level = \"estimate\"\n" + scene_with("solid = \"icosahedron\"\n"));
-  expect_user_error("run t.toml", "t.toml:1: level: rds3000 has no level `estimate`: known are function, cycle");
+  expect_user_error("run t.toml",
+                    "t.toml:1: level: rds3000 has no level `estimate`: known are function, cycle");
   write("u.toml", "include = \"icosahedron\"\n[image]\nheight = 5\nwidth = 513\n");
   expect_user_error("run u.toml", "u.toml:4: image.width: 513");
   expect_user_error("run icosahedron --set image.width=513", "--set: image.width: 513");
@@ -191,7 +193,8 @@ TEST_F(BadInput, IsBlamedOnThePlaceThatSaidIt) {
 
 TEST_F(BadInput, NumbersAreNotClamped) {
   for (const char* seed : {"-1", "9223372036854775808", "18446744073709551616", "1.5", "x"})
-    expect_user_error(std::string("run icosahedron --seed ") + seed, "is not an integer in 0..9223372036854775807");
+    expect_user_error(std::string("run icosahedron --seed ") + seed,
+                      "is not an integer in 0..9223372036854775807");
   expect_user_error("run icosahedron --limit 99999999999999999999", "--limit: ");
   expect_user_error("table --tolerance 1e999", "--tolerance: ");
   expect_user_error("table --tolerance nan", "--tolerance: ");
@@ -225,9 +228,9 @@ TEST_F(BadInput, AnOutputThatIsTheInput) {
 TEST_F(BadInput, OutputsThatFailLeaveNothing) {
   expect_user_error("run icosahedron --set image.width=64 --json /dev/full --out run", "/dev/full");
   for (const char* command : {"scenes", "machines rds3000", "run icosahedron --out run"}) {
-    const int status = std::system(("cd '" + folder_.string() + "' && '" DENDRO "' " + command +
-                                    " >/dev/full 2>/dev/null </dev/null")
-                                       .c_str());
+    const int status = std::system(
+        ("cd '" + folder_.string() + "' && '" DENDRO "' " + command + " >/dev/full 2>/dev/null </dev/null")
+            .c_str());
     EXPECT_EQ(2, WEXITSTATUS(status)) << command;
   }
 }

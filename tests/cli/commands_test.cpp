@@ -96,7 +96,8 @@ TEST_F(Commands, LevelsComparesEveryLevelWithClocked) {
     if (!row["skipped"].is_null()) continue;
     EXPECT_EQ(0, row["different_pixels"]) << row["level"];
     if (row["level"] == "function") {
-      EXPECT_TRUE(row["cycles"].is_null() && row["cycle_error"].is_null() && row["interval"].is_null()) << row;
+      EXPECT_TRUE(row["cycles"].is_null() && row["cycle_error"].is_null() && row["interval"].is_null())
+          << row;
       continue;
     }
     EXPECT_EQ(0.0, row["cycle_error"]) << row["level"];

@@ -92,8 +92,9 @@ TEST_F(Run, ASlowerMultiplierDrawsTheSamePictureLater) {
     std::int64_t cycles = 0;
     std::string picture;
     for (const char* ticks : {"2", "3", "4"}) {
-      const Result result = dendro(std::string("run s.toml --quiet --json - --set parameters.microcode.pack=") + pack +
-                                   " --set parameters.processor.multiply_ticks=" + ticks);
+      const Result result =
+          dendro(std::string("run s.toml --quiet --json - --set parameters.microcode.pack=") + pack +
+                 " --set parameters.processor.multiply_ticks=" + ticks);
       ASSERT_EQ(0, result.status) << result.err;
       const json o = json::parse(result.out);
       EXPECT_LT(cycles, o["cycles"].get<std::int64_t>()) << pack << " " << ticks;

@@ -30,12 +30,14 @@ TEST_F(OptionKeys, OfEveryAlgorithmAreThoseThatItsJobReads) {
   const Catalogue all{{type}, algorithms(), "/nowhere"};
   const config::Preset preset = config::load_preset(type.name, all.presets(), {});
   for (const Algorithm& algorithm : algorithms()) {
-    if (std::find(algorithm.machines.begin(), algorithm.machines.end(), type.name) == algorithm.machines.end())
+    if (std::find(algorithm.machines.begin(), algorithm.machines.end(), type.name) ==
+        algorithm.machines.end())
       continue;
     SceneFile file = load_scene(write("s.toml", "algorithm = \"" + algorithm.name +
                                                     "\"\n[image]\nwidth = 8\nheight = 8\n"
                                                     "[camera]\nheight = 4\nposition = [0, 0, 4]\n"
-                                                    "[[object]]\nmesh = \"" + mesh + "\"\n"),
+                                                    "[[object]]\nmesh = \"" +
+                                                    mesh + "\"\n"),
                                 {}, all);
     file.scene.options.set(std::string(60, 'z'), {std::int64_t{1}, {}});
     std::string message = "no error";
