@@ -25,7 +25,7 @@ constexpr SteepPlane kPlanes[] = {
     {0.5, 190, 250.3}, {0.1, 45, 300.123}, {0.05, 275, 200.6},  {0.01, 5, 399.9},    {0.001, 170, 222.2},
     {1e-5, 33, 128.4}, {1e-7, 60, 310.77}, {1e-9, 12, 255.501}, {1e-11, 181, 77.77},
 };
-constexpr int kIcosahedra = 6;
+constexpr int kIcosahedra = 4;
 
 Prepared steep_scene(const SteepPlane& p, SteepPolicy policy) {
   const double angle = p.degrees * M_PI / 180;
