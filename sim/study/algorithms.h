@@ -31,8 +31,7 @@ const std::vector<Algorithm>& algorithms();
 /// The half-space program as it is assembled for a machine with these parameters. Throws UserError.
 tools::Ucode half_space_program(const config::ParameterSet& parameters);
 
-/// The microprogram of an embedded source as it is assembled and loaded for a machine with these parameters. Throws
-/// UserError.
+/// The microprogram of an embedded source, assembled for a machine with these parameters. Throws UserError.
 lib::ProgramImage program_image(const std::string& path, const config::ParameterSet& parameters);
 
 /// A microprogram that ships with dendro, in all its packings.

@@ -15,7 +15,9 @@ TEST_F(Stability, EveryCaseHoldsAndItsRowsHaveTheContractsKeys) {
   const json s = json::parse(read("s.json"));
   EXPECT_EQ("stability", s["command"]);
   for (const char* id : {"N-A1", "N-A2", "N-A3", "N-A4", "N-A5", "N-A10", "X1", "X2", "X3", "X4", "X6"})
-    EXPECT_TRUE(std::any_of(s["rows"].begin(), s["rows"].end(), [&](const json& row) { return row["case"] == id; })) << id;
+    EXPECT_TRUE(std::any_of(s["rows"].begin(), s["rows"].end(), [&](const json& row) {
+      return row["case"] == id;
+    })) << id;
   for (const json& row : s["rows"]) {
     EXPECT_TRUE(row["measured"].is_number() && row["bound"].is_number()) << row;
     EXPECT_EQ(true, row["pass"]) << row;
@@ -29,13 +31,15 @@ TEST_F(Stability, EveryCaseHoldsAndItsRowsHaveTheContractsKeys) {
     EXPECT_NE(std::string::npos, row["where"].get<std::string>().find("step ")) << row;
   }
   EXPECT_EQ(4, must_fail);
-  for (const char* name : {"s/stability.json", "s/stability.csv", "s/summary.txt", "s/N-A4.csv", "s/N-A4.png", "s/N-A1.csv"})
+  for (const char* name :
+       {"s/stability.json", "s/stability.csv", "s/summary.txt", "s/N-A4.csv", "s/N-A4.png", "s/N-A1.csv"})
     EXPECT_GT(read(name).size(), 100u) << name;
   EXPECT_EQ(0u, read("s/N-A4.png").find("\x89PNG"));
 }
 
 TEST_F(Stability, TheSeedDecidesEverythingRandomAndChosenCasesComeAlone) {
-  const Result a = dendro("stability X3 N-A10 --seed 7 --json -"), b = dendro("stability N-A10 X3 --seed 7 --jobs 1 --json -");
+  const Result a = dendro("stability X3 N-A10 --seed 7 --json -"),
+               b = dendro("stability N-A10 X3 --seed 7 --jobs 1 --json -");
   const Result other = dendro("stability X3 N-A10 --seed 8 --json -");
   ASSERT_EQ(0, a.status) << a.err;
   EXPECT_EQ(a.out, b.out);

@@ -23,7 +23,8 @@ TEST(ExactPlane, IsTheFloorOfTheRationalValueInUnitsOfTwoToTheMinus32) {
     ExactPlane exact(p);
     const int x = static_cast<int>(random() % 512), y = static_cast<int>(random() % 512);
     const mpq_class z = -(mpq_class(p.a) * x + mpq_class(p.b) * y + mpq_class(p.d)) / mpq_class(p.c);
-    const mpq_class low = mpq_class(mpz_class(static_cast<long>(exact.floor32(x, y)))) / mpq_class(4294967296.0);
+    const mpq_class low =
+        mpq_class(mpz_class(static_cast<long>(exact.floor32(x, y)))) / mpq_class(4294967296.0);
     ASSERT_LE(low, z) << "seed " << kSeed << " number " << i;
     ASSERT_LT(z, low + mpq_class(0x1p-32)) << "seed " << kSeed << " number " << i;
   }
@@ -52,7 +53,8 @@ TEST(Enclosure, HoldsEveryWordOfThePassesAndObjectsToEveryOtherWordWhereItIsDeci
       ++decided;
       const bool covered = face_of(word) != 0;
       faces += covered;
-      ASSERT_NE("", enclosure.objection(x, y, covered ? kBackgroundWord : 1u << kFaceLow | 2000)) << x << "," << y;
+      ASSERT_NE("", enclosure.objection(x, y, covered ? kBackgroundWord : 1u << kFaceLow | 2000))
+          << x << "," << y;
       if (!covered) continue;
       ASSERT_NE("", enclosure.objection(x, y, word + 1)) << x << "," << y;
       ASSERT_NE("", enclosure.objection(x, y, word + (1u << kFaceLow))) << x << "," << y;
@@ -65,7 +67,8 @@ TEST(Enclosure, SaysWhichPixelWhichPlaneAndWhichStep) {
   const Prepared prepared = from_screen({{0, 0, 1, -900}, {0.5, 0, -1, 100}}, 64, 64);
   Enclosure enclosure(prepared);
   const std::string objection = enclosure.objection(20, 7, 1u << kFaceLow | 300);
-  for (const char* part : {"pixel (20, 7)", "face 1 at depth 300", "plane 2 (front, face 1)", "step 20 of line 7", "110.000000"})
+  for (const char* part :
+       {"pixel (20, 7)", "face 1 at depth 300", "plane 2 (front, face 1)", "step 20 of line 7", "110.000000"})
     EXPECT_NE(std::string::npos, objection.find(part)) << part << " in: " << objection;
   EXPECT_EQ("", enclosure.objection(21, 7, 1u << kFaceLow | 110));
 }
@@ -73,7 +76,8 @@ TEST(Enclosure, SaysWhichPixelWhichPlaneAndWhichStep) {
 TEST(Enclosure, AllowsTwiceAsMuchForTruncatedRecordsAsForRoundedOnes) {
   const Prepared prepared = hull(3);
   const Enclosure rounded(prepared, Rounding::kNearest), truncated(prepared, Rounding::kTruncated);
-  const double ratio = static_cast<double>(truncated.slack(0, 80, 80)) / static_cast<double>(rounded.slack(0, 80, 80));
+  const double ratio =
+      static_cast<double>(truncated.slack(0, 80, 80)) / static_cast<double>(rounded.slack(0, 80, 80));
   EXPECT_NEAR(ratio, 2.0, 1e-3);
   EXPECT_NEAR(static_cast<double>(rounded.slack(0, 80, 80)) * 0x1p-32, 161 * 0x1p-17, 1e-6);
 }
@@ -85,7 +89,9 @@ TEST(ExactPlane, TruncatedRecordsLieBelowRoundedOnesByLessThanOneStep) {
     if (plane.kind == PlaneKind::kEdgeOn) continue;
     const PlaneRecord nearest = make_record(plane, box, SteepPolicy::kWide, 0);
     const PlaneRecord down = ExactPlane(plane).truncated(box);
-    for (const auto& [a, b] : {std::pair(nearest.start, down.start), {nearest.step_x, down.step_x}, {nearest.step_y, down.step_y}}) {
+    for (const auto& [a, b] : {std::pair(nearest.start, down.start),
+                               {nearest.step_x, down.step_x},
+                               {nearest.step_y, down.step_y}}) {
       EXPECT_GE(a - b, 0);
       EXPECT_LE(a - b, 1);
     }

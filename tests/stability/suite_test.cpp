@@ -6,9 +6,9 @@
 
 #include "firmware/half_space/stability/cases.h"
 #include "models/machines/rds3000/rds3000.h"
+#include "sim/base/error.h"
 #include "sim/study/algorithms.h"
 #include "sim/study/stability.h"
-#include "sim/base/error.h"
 
 namespace dendro::study {
 namespace {
@@ -20,7 +20,8 @@ using Json = nlohmann::json;
 
 Catalogue catalogue() { return {{rds3000::rds3000_type()}, algorithms(), ""}; }
 
-std::vector<Result> run(const std::vector<StabilitySuite>& suites, const std::vector<std::string>& cases, std::uint64_t seed = 1) {
+std::vector<Result> run(const std::vector<StabilitySuite>& suites, const std::vector<std::string>& cases,
+                        std::uint64_t seed = 1) {
   StabilityOptions options;
   options.cases = cases;
   options.seed = seed;
@@ -40,7 +41,8 @@ class TurningPort : public HostPort {
   explicit TurningPort(HostPort& port) : port_(port) {}
   std::uint32_t read(std::uint32_t a, unsigned f) override { return port_.read(a, f); }
   void write(std::uint32_t a, std::uint32_t v, unsigned f) override { port_.write(a, v, f); }
-  void dma_to(std::uint32_t a, const std::uint32_t* w, std::size_t n, unsigned f, std::uint32_t step) override {
+  void dma_to(std::uint32_t a, const std::uint32_t* w, std::size_t n, unsigned f,
+              std::uint32_t step) override {
     port_.dma_to(a, w, n, f, step);
   }
   void dma_from(std::uint32_t a, std::uint32_t* w, std::size_t n, unsigned f, std::uint32_t step) override {
@@ -56,8 +58,8 @@ class TurningPort : public HostPort {
   HostPort& port_;
 };
 
-/// A machine with a fault: in every second run a column of the image memory has a face number off by one bit, and
-/// every DMA to the host a wrong bit.
+/// A machine with a fault: in every second run a column of the image memory has a face number off by one bit,
+/// and every DMA to the host a wrong bit.
 class FaultyRig : public stability::Rig {
  public:
   explicit FaultyRig(const stability::Rig& sound) : sound_(sound) {}
@@ -92,7 +94,9 @@ std::vector<StabilitySuite> faulty_suites() {
   std::vector<StabilitySuite> suites = stability_suites();
   for (StabilitySuite& suite : suites)
     for (stability::Case& one : suite.cases)
-      one.run = [sound = one.run](const stability::Rig& rig, std::uint64_t seed) { return sound(FaultyRig(rig), seed); };
+      one.run = [sound = one.run](const stability::Rig& rig, std::uint64_t seed) {
+        return sound(FaultyRig(rig), seed);
+      };
   return suites;
 }
 
@@ -105,12 +109,14 @@ TEST_P(Faulty, EveryCaseFailsOnAMachineWithAFaultAndSaysWhere) {
   EXPECT_FALSE(all_pass(results));
   bool placed = false;
   const std::string wanted = std::string(GetParam()) == "N-A10" ? "step " : "pixel (60, ";
-  for (const Row& row : results[0].rows) placed = placed || (!row.pass() && row.where.find(wanted) != std::string::npos);
+  for (const Row& row : results[0].rows)
+    placed = placed || (!row.pass() && row.where.find(wanted) != std::string::npos);
   EXPECT_TRUE(placed) << stability_text(results);
 }
 
 INSTANTIATE_TEST_SUITE_P(Cases, Faulty,
-                         ::testing::Values("N-A1", "N-A2", "N-A3", "N-A4", "N-A5", "N-A10", "X1", "X2", "X3", "X4", "X6"),
+                         ::testing::Values("N-A1", "N-A2", "N-A3", "N-A4", "N-A5", "N-A10", "X1", "X2", "X3",
+                                           "X4", "X6"),
                          [](const auto& tested) {
                            std::string name = tested.param;
                            name.erase(std::remove(name.begin(), name.end(), '-'), name.end());
