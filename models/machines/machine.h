@@ -52,6 +52,7 @@ struct MachineOptions {
   std::string vcd_file;         ///< clocked only; empty: none
   std::int64_t vcd_from = 0, vcd_to = INT64_MAX;  ///< window in ticks
   std::vector<std::string> vcd_units;             ///< empty: all
+  std::map<std::uint32_t, std::string> symbols;   ///< labels by word index, for messages only
   std::map<std::uint32_t, std::string> counted;   ///< `function` only: microwords whose executions are counted
   std::function<void(std::int64_t tick)> progress;  ///< called now and then with the simulated time; may be empty
 };

@@ -99,7 +99,7 @@ void add_run(CLI::App& app, const study::Catalogue& catalogue, Action& action) {
   command->add_option("--vcd", machine.vcd_file, "waveform file, at --level clocked");
   command->add_option("--vcd-from", machine.vcd_from, "first tick of the waveform")
       ->check(CLI::NonNegativeNumber);
-  command->add_option("--vcd-to", machine.vcd_to, "last tick of the waveform")->check(CLI::NonNegativeNumber);
+  command->add_option("--vcd-to", machine.vcd_to, "first tick that the waveform no longer shows")->check(CLI::NonNegativeNumber);
   command->add_option("--vcd-units", o->vcd_units, "units in the waveform, separated by commas");
   command->callback([&catalogue, &action, o] { action = [&catalogue, o] { return run(catalogue, *o); }; });
 }

@@ -10,6 +10,7 @@
 #include <cmath>
 #include <filesystem>
 #include <glm/geometric.hpp>
+#include <sstream>
 
 #include "sim/base/error.h"
 #include "sim/scene/mesh_files.h"
@@ -35,6 +36,27 @@ std::string first_line(std::string text) {
   const std::size_t end = text.find_first_of("\r\n");
   if (end != std::string::npos) text.resize(end);
   return text;
+}
+
+// What the headers of two formats promise, against what is there: the reader would look for the rest for minutes, or
+// blame something else.
+void check_promised_size(const std::string& path, const std::string& extension, const std::string& bytes) {
+  if (extension == ".ply") {
+    std::istringstream header(bytes.substr(0, bytes.find("end_header")));
+    double elements = 0;
+    for (std::string word; header >> word;) {
+      double count = 0;
+      if (word == "element" && header >> word >> count) elements += count;
+    }
+    if (elements > static_cast<double>(bytes.size()))
+      throw UserError(path, 0, {}, fmt::format("is truncated: its header promises {:.0f} elements", elements));
+  }
+  if (extension == ".stl" && bytes.size() >= 84 && bytes.compare(0, 5, "solid") != 0) {
+    std::uint64_t triangles = 0;
+    for (int i = 3; i >= 0; --i) triangles = triangles << 8 | static_cast<unsigned char>(bytes[80 + i]);
+    if (84 + 50 * triangles > bytes.size())
+      throw UserError(path, 0, {}, fmt::format("is truncated: its header promises {} triangles", triangles));
+  }
 }
 
 void append_mesh(const aiMesh& part, const aiMatrix4x4& placed, const std::string& node, Mesh& mesh) {
@@ -91,7 +113,9 @@ Mesh load_mesh(const std::string& path, const Where& where, const std::string& k
     throw UserError(where.file, where.line, key,
                     fmt::format("{} is not .obj, .ply, .stl, .gltf or .glb, plain or .gz", path));
 
-  auto files = std::make_unique<MeshFiles>(plain, read_bytes(path));
+  std::string bytes = read_bytes(path);
+  check_promised_size(path, extension, bytes);
+  auto files = std::make_unique<MeshFiles>(plain, std::move(bytes));
   const MeshFiles& opened = *files;
   Assimp::Importer importer;
   importer.SetIOHandler(files.release());

@@ -95,6 +95,7 @@ Json run_here(const Prepared& p, const ExecArguments& arguments, Progress* progr
   MachineOptions options = arguments.options;
   if (options.tick_limit == 0) options.tick_limit = kDefaultTickLimit;
   options.marks = marked_words(p.ucode.symbols);
+  for (const auto& [name, address] : p.ucode.symbols) options.symbols[address] = name;
   if (progress && progress->enabled())
     options.progress = [progress](std::int64_t tick) { progress->tick(tick); };
   const auto start = std::chrono::steady_clock::now();

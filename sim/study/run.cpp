@@ -62,6 +62,7 @@ MachineOptions machine_options(const RunRequest& request, const Job& job, Progre
   for (const FirmwareImage& image : job.firmware()) {
     const auto marks = marked_words(image.symbols);
     options.marks.insert(marks.begin(), marks.end());
+    for (const auto& [name, address] : image.symbols) options.symbols[address] = name;
   }
   if (progress && progress->enabled())
     options.progress = [progress](std::int64_t tick) { progress->tick(tick); };

@@ -87,6 +87,12 @@ TEST(Parameters, EveryEndOfTheirRangesGivesTheSameTicksByBothRoutesAndTheSamePic
   }
 }
 
+TEST(Parameters, TheDisplaySPhaseAtTheStartMovesTheRun) {
+  const Catalogue all = catalogue();
+  const std::int64_t nominal = run(all, "icosahedron", "cycle", {}).object.cycles;
+  EXPECT_NE(run(all, "icosahedron", "cycle", {"parameters.video.phase_ns=20000000.0"}).object.cycles, nominal);
+}
+
 TEST(Units, AMachineWithAllUnitsTakesTheSameTicksAsOneWithTheSceneS) {
   const Catalogue all = catalogue();
   const std::vector<std::string> settings{"image.width=96", "image.height=64",

@@ -281,6 +281,7 @@ TEST(ClockedHost, CountersDescribeExactlyTheTicksBeforeTheEnd) {
 TEST(ClockedHost, AProgramThatPassesTheTickLimitIsStoppedWithItsLoopNamed) {
   in_child([] {
     MachineOptions options;
+    options.symbols = {{0, "start"}, {1, "head"}, {3, "tail"}};
     options.tick_limit = 1000;
     Rig rig(Rig::quiet(), options);
     rig.simulate([&] {
@@ -296,7 +297,7 @@ TEST(ClockedHost, AProgramThatPassesTheTickLimitIsStoppedWithItsLoopNamed) {
       std::rethrow_exception(rig.engine->error());
     } catch (const UserError& e) {
       EXPECT_STREQ(e.what(),
-                   "the microprogram still runs after 1000 ticks, in the loop 0x002..0x003 (near 3)");
+                   "the microprogram still runs after the limit of 1000 ticks, in the loop 0x002..0x003 (head + 1)");
     }
   });
 }

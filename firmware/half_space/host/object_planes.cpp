@@ -14,8 +14,12 @@
 namespace dendro::half_space {
 namespace {
 
-/// The scratchpad's 8K words hold no more, whatever the kinds.
+/// The scratchpad's 8K words hold no more, whatever the kinds; check_fits() knows what the program leaves of them.
 constexpr int kMostPlanes = 2048;
+
+/// What a mesh's hull is merged down to unless the scene says otherwise: with many more facets neighbours meet at less
+/// than a depth unit a pixel, and a 12-bit register cannot tell which of two faces is in front.
+constexpr std::size_t kDefaultPlanes = 32;
 
 [[noreturn]] void blame(const scene::Object& object, const std::string& key, const std::string& message) {
   throw UserError(object.source_where.file, object.source_where.line, key, message);
@@ -43,7 +47,9 @@ scene::PlaneSet mesh_planes(const scene::Object& object, scene::Options& options
                                  directions.empty() ? scene::sphere_directions(count) : directions);
   }
   try {
-    return scene::hull_planes(mesh.vertices, count);
+    scene::PlaneSet planes = scene::hull_planes(mesh.vertices, count);
+    if (options.has("planes") || planes.size() <= kDefaultPlanes) return planes;
+    return scene::hull_planes(mesh.vertices, kDefaultPlanes);
   } catch (const std::invalid_argument& error) {
     if (options.has("planes")) options.fail("planes", fmt::format("{}: {}", object.mesh, error.what()));
     blame(object, "object.mesh", fmt::format("{}: {}", object.mesh, error.what()));

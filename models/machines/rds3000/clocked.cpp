@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "models/machines/rds3000/loop_finder.h"
 #include "sim/base/check.h"
 #include "sim/base/error.h"
 
@@ -127,12 +128,7 @@ void ClockedEngine::watch_for_loop(std::int64_t n, bool executed) {
 }
 
 void ClockedEngine::give_up(std::int64_t n) {
-  std::string near;
-  const auto after = mark_names_.upper_bound(loop_high_);
-  if (after != mark_names_.begin()) near = fmt::format(" (near {})", std::prev(after)->second);
-  error_ = std::make_exception_ptr(
-      UserError(fmt::format("the microprogram still runs after {} ticks, in the loop 0x{:03x}..0x{:03x}{}",
-                            options_.tick_limit, loop_low_, loop_high_, near)));
+  error_ = std::make_exception_ptr(endless_program(options_.tick_limit, loop_low_, loop_high_, options_.symbols));
   if (processor_.state().running) stop_running(n + 1);
   processor_.halt();
   if (!finished_) interrupt_event_.notify(ps((n + 1) * tick_ps_ - now_in_ps()));

@@ -151,8 +151,10 @@ void ClockedEngine::write_device(const Access& access, bool from_host, std::int6
 }
 
 void ClockedEngine::restart_display(std::int64_t n) {
+  const video::Raster raster = video::raster_of(video_, spec_.video, spec_.memory.fetch_bits);
+  if (raster == display_.raster()) return;
   const std::int64_t now_ps = n * tick_ps_;
-  display_.restart(video::raster_of(video_, spec_.video, spec_.memory.fetch_bits), now_ps, now_ps);
+  display_.restart(raster, now_ps, now_ps);
   // A line without blanking has its first fetch at this very tick.
   for (unsigned due = display_.step(now_ps); due > 0; --due) cards_.queue_fetch();
   cards_.serve(memory_counters_);

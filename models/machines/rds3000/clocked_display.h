@@ -17,6 +17,7 @@ class ClockedDisplay {
   /// included.
   unsigned step(std::int64_t now_ps) { return now_ps < next_ps_ ? 0 : advance(now_ps); }
 
+  const video::Raster& raster() const { return raster_; }
   bool vertical_blank() const { return raster_.line_ps == 0 || line_ < raster_.blank_lines; }
   bool field() const { return field_; }
   std::int64_t line() const { return line_; }

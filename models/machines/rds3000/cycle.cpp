@@ -116,11 +116,13 @@ inline void CycleEngine::book_access(bool write, std::int64_t asked, std::int64_
 }
 
 void CycleEngine::change_video(std::uint32_t address, std::int64_t tick) {
-  if (!restarts_raster(address)) return;
+  if (!sets_raster(address)) return;
+  const video::Raster raster = video::raster_of(devices_.video, spec_.video, spec_.memory.fetch_bits);
+  if (raster == raster_.raster) return;
   timing_.settle(tick + 1);
   raster_before_ = raster_;
   raster_from_ = tick;
-  raster_ = {video::raster_of(devices_.video, spec_.video, spec_.memory.fetch_bits), tick * tick_ps()};
+  raster_ = {raster, tick * tick_ps()};
   timing_.set_fetches({raster_.raster, raster_.origin_ps, raster_.origin_ps, tick_ps()});
 }
 
@@ -188,7 +190,7 @@ void CycleEngine::find_loop() {
     const std::int64_t before = now_;
     while (processor_.running && now_ == before) stride(now_ + 1);
     if (finder.see(at)) {
-      error_ = std::make_exception_ptr(finder.error(options_.tick_limit, mark_names_));
+      error_ = std::make_exception_ptr(finder.error(options_.tick_limit, options_.symbols));
       stopped(now_);
     }
   }

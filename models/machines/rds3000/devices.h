@@ -26,8 +26,8 @@ struct Devices {
   void write(std::uint32_t address, std::uint32_t data, unsigned function);
 };
 
-/// The FBC registers that set the raster: a write restarts it.
-constexpr bool restarts_raster(std::uint32_t address) {
+/// The FBC registers that set the raster: a write that changes it restarts it.
+constexpr bool sets_raster(std::uint32_t address) {
   const std::uint32_t a = address & kAddressMask;
   return a == kFbc + 1 || a == kFbc + 4 || a == kFbc + 5;
 }

@@ -89,7 +89,7 @@ void FunctionEngine::run_to_halt() {
     port.words = words_;
     bps32::execute_fast(processor_, word, spec_.processor, port, pc);
     if (++words_ > limit && finder.see(static_cast<std::uint32_t>(index)))
-      throw finder.error(options_.tick_limit, options_.marks);
+      throw finder.error(options_.tick_limit, options_.symbols);
   }
   processor_.pc = pc;
 }

@@ -10,7 +10,20 @@
 
 namespace dendro::rds3000 {
 
-/// The range of addresses a microprogram goes round in once its tick limit is spent, for the message about it.
+/// What the user is told of a program that does not halt: the loop's first and last word index, and the label before it.
+inline UserError endless_program(std::int64_t limit, std::uint32_t first, std::uint32_t last,
+                                 const std::map<std::uint32_t, std::string>& symbols) {
+  std::string near;
+  const auto after = symbols.upper_bound(first);
+  if (after != symbols.begin()) {
+    const auto& [address, name] = *std::prev(after);
+    near = address == first ? fmt::format(" ({})", name) : fmt::format(" ({} + {})", name, first - address);
+  }
+  return UserError(fmt::format("the microprogram still runs after the limit of {} ticks, in the loop 0x{:03x}..0x{:03x}{}",
+                               limit, first, last, near));
+}
+
+/// The range of addresses a microprogram goes round in once its tick limit is spent.
 class LoopFinder {
  public:
   static constexpr int kWords = 4096;
@@ -22,12 +35,8 @@ class LoopFinder {
     return ++seen_ >= kWords;
   }
 
-  UserError error(std::int64_t limit, const std::map<std::uint32_t, std::string>& names) const {
-    std::string near;
-    const auto after = names.upper_bound(last_);
-    if (after != names.begin()) near = fmt::format(" (after {})", std::prev(after)->second);
-    return UserError(fmt::format("the microprogram still runs after {} ticks, in the loop 0x{:03x}..0x{:03x}{}", limit,
-                                 first_, last_, near));
+  UserError error(std::int64_t limit, const std::map<std::uint32_t, std::string>& symbols) const {
+    return endless_program(limit, first_, last_, symbols);
   }
 
  private:

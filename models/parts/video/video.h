@@ -37,6 +37,13 @@ struct Raster {
   std::int64_t fetches_per_line = 0;
 
   std::int64_t field_ps() const { return field_lines * line_ps; }
+
+  bool operator==(const Raster& o) const {
+    return line_ps == o.line_ps && field_lines == o.field_lines && blank_lines == o.blank_lines &&
+           horizontal_blank_ps == o.horizontal_blank_ps && fetch_period_ps == o.fetch_period_ps &&
+           fetches_per_line == o.fetches_per_line;
+  }
+  bool operator!=(const Raster& o) const { return !(*this == o); }
 };
 
 Raster raster_of(const State& state, const Spec& spec, int fetch_bits);

@@ -223,5 +223,17 @@ TEST_F(MeshFile, AGltfWhoseBinIsMissingIsRefused) {
   refusal(write("tree_pine_orange_large.gltf", bytes_of(kMeshes + "/tree_pine_orange_large.gltf")));
 }
 
+TEST_F(MeshFile, AHeaderThatPromisesMoreThanTheFileHoldsIsTruncation) {
+  const std::string ply = write("g.ply",
+                                "ply\nformat ascii 1.0\nelement vertex 99999999999\nproperty float x\n"
+                                "property float y\nproperty float z\nelement face 1\n"
+                                "property list uchar int vertex_indices\nend_header\n0 0 0\n");
+  EXPECT_NE(refusal(ply).find("is truncated: its header promises 100000000000 elements"), std::string::npos)
+      << refusal(ply);
+  std::string stl(84 + 50, '\0');
+  stl[80] = 2;
+  EXPECT_NE(refusal(write("t.stl", stl)).find("is truncated: its header promises 2 triangles"), std::string::npos);
+}
+
 }  // namespace
 }  // namespace dendro::scene

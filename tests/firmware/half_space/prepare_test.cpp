@@ -235,5 +235,13 @@ TEST(Prepare, WrongOptionsAreRefused) {
   EXPECT_REFUSED(with(icosahedron(), "stepe", std::string("wide")), "did you mean steep?");
 }
 
+TEST(Prepare, AMeshWithoutAPlaneCountIsMergedSoThatTheReferenceHasNoWrongPixelFarFromAnEdge) {
+  scene::Scene scene = pine(32);
+  scene.options = scene::Options("half_space", {"test.toml", 20});
+  const Prepared prepared = prepare(scene);
+  EXPECT_EQ(prepared.screen.size(), 32u);
+  EXPECT_EQ(extra(error_of(prepared), "wrong_pixels_far"), 0);
+}
+
 }  // namespace
 }  // namespace dendro::half_space
