@@ -37,10 +37,10 @@ struct Row {
 struct Curve {
   std::string name;  ///< of the files: "N-A4"
   std::string title;
-  std::vector<std::string> columns;          ///< names with units; the first is the chart's x
-  std::vector<std::vector<double>> rows;     ///< one value per column
-  bool logarithmic = false;                  ///< the chart's y
-  std::string y_label;                       ///< empty: no picture
+  std::vector<std::string> columns;       ///< names with units; the first is the chart's x
+  std::vector<std::vector<double>> rows;  ///< one value per column
+  bool logarithmic = false;               ///< the chart's y
+  std::string y_label;                    ///< empty: no picture
 };
 
 struct Result {

@@ -1,3 +1,5 @@
+#include "sim/study/stability.h"
+
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
@@ -7,7 +9,6 @@
 
 #include "sim/app/commands.h"
 #include "sim/study/run_folder.h"
-#include "sim/study/stability.h"
 #include "sim/study/worker.h"
 
 namespace dendro::app {
@@ -25,7 +26,8 @@ void write_folder(study::RunFolder& folder, const std::vector<stability::Result>
   for (const stability::Result& result : results)
     for (const stability::Curve& curve : result.curves) {
       folder.write(curve.name + ".csv", study::curve_csv(curve));
-      if (!curve.y_label.empty()) study::write_curve_picture(curve, folder.work() + "/" + curve.name + ".png");
+      if (!curve.y_label.empty())
+        study::write_curve_picture(curve, folder.work() + "/" + curve.name + ".png");
     }
   folder.commit();
 }
@@ -35,7 +37,8 @@ int check(const study::Catalogue& catalogue, const Options& options) {
   std::optional<study::RunFolder> folder;
   if (!options.out.empty()) folder.emplace(options.out);
   study::Progress progress(options.progress);
-  const auto results = study::run_stability(catalogue, study::stability_suites(), options.stability, &progress);
+  const auto results =
+      study::run_stability(catalogue, study::stability_suites(), options.stability, &progress);
   if (options.json != "-") fmt::print("{}", study::stability_text(results));
   if (folder) write_folder(*folder, results);
   json.commit(study::stability_json(results));
@@ -47,13 +50,15 @@ int check(const study::Catalogue& catalogue, const Options& options) {
 void add_stability(CLI::App& app, const study::Catalogue& catalogue, Action& action) {
   const auto o = std::make_shared<Options>();
   o->stability.jobs = study::default_jobs();
-  CLI::App* command = app.add_subcommand("stability", "the hard numerical cases: measured error beside its bound");
+  CLI::App* command =
+      app.add_subcommand("stability", "the hard numerical cases: measured error beside its bound");
   command->add_option("case", o->stability.cases, "ids, such as N-A1 or X2; default: all");
   command->add_option("--out", o->out, "folder for rows, curves and their pictures");
   command->add_option("--json", o->json, "also write the rows here; - is standard output");
   command->add_option("--seed", o->stability.seed, "of the random cases");
   command->add_option("--jobs", o->stability.jobs, "worker processes")->check(CLI::Range(1, 1024));
-  command->add_option("--progress", o->progress, "auto, on or off")->check(CLI::IsMember({"auto", "on", "off"}));
+  command->add_option("--progress", o->progress, "auto, on or off")
+      ->check(CLI::IsMember({"auto", "on", "off"}));
   command->callback([&catalogue, &action, o] { action = [&catalogue, o] { return check(catalogue, *o); }; });
 }
 

@@ -32,8 +32,7 @@ const std::vector<Algorithm>& algorithms();
 /// The half-space program as it is assembled for a machine with these parameters. Throws UserError.
 tools::Ucode half_space_program(const config::ParameterSet& parameters);
 
-/// The microprogram of an embedded source as it is assembled and loaded for a machine with these parameters. Throws
-/// UserError.
+/// The microprogram of an embedded source, assembled for a machine with these parameters. Throws UserError.
 lib::ProgramImage program_image(const std::string& path, const config::ParameterSet& parameters);
 
 /// The program with three registers as it is assembled for a machine with these parameters.

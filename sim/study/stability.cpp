@@ -94,15 +94,18 @@ const char* relation(const Row& row) { return row.kind == Bound::kAtMost ? "at m
 Json finite(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
 
 Json to_json(const Row& row) {
-  return {{"case", row.case_id},   {"measured", finite(row.measured)}, {"bound", finite(row.bound)}, {"relation", relation(row)},
-          {"unit", row.unit},      {"pass", row.pass()},               {"reference", row.reference}, {"what", row.what},
+  return {{"case", row.case_id},        {"measured", finite(row.measured)},
+          {"bound", finite(row.bound)}, {"relation", relation(row)},
+          {"unit", row.unit},           {"pass", row.pass()},
+          {"reference", row.reference}, {"what", row.what},
           {"where", row.where}};
 }
 
 }  // namespace
 
 const std::vector<StabilitySuite>& stability_suites() {
-  static const std::vector<StabilitySuite> list = {{"half_space", "rds3000:fg86", half_space::stability_cases()}};
+  static const std::vector<StabilitySuite> list = {
+      {"half_space", "rds3000:fg86", half_space::stability_cases()}};
   return list;
 }
 
@@ -140,14 +143,16 @@ std::string stability_json(const std::vector<Result>& results) {
 }
 
 std::string stability_text(const std::vector<Result>& results) {
-  std::string text = fmt::format("{:6} {:4} {:>10} {:>13}  {:16} {}\n", "case", "", "measured", "bound", "unit", "what");
+  std::string text =
+      fmt::format("{:6} {:4} {:>10} {:>13}  {:16} {}\n", "case", "", "measured", "bound", "unit", "what");
   std::size_t rows = 0, failed = 0;
   for (const Result& result : results)
     for (const Row& row : result.rows) {
       ++rows, failed += !row.pass();
-      text += fmt::format("{:6} {:4} {:>10} {:>13}  {:16} {} [{}]\n", row.case_id, row.pass() ? "ok" : "FAIL",
-                          number(row.measured), (row.kind == Bound::kAtMost ? "<= " : "> ") + number(row.bound), row.unit,
-                          row.what, row.reference);
+      text +=
+          fmt::format("{:6} {:4} {:>10} {:>13}  {:16} {} [{}]\n", row.case_id, row.pass() ? "ok" : "FAIL",
+                      number(row.measured), (row.kind == Bound::kAtMost ? "<= " : "> ") + number(row.bound),
+                      row.unit, row.what, row.reference);
       if (!row.pass() && !row.where.empty()) text += fmt::format("            first: {}\n", row.where);
     }
   return text + fmt::format("{} of {} bounds hold\n", rows - failed, rows);
@@ -157,8 +162,9 @@ std::string stability_csv(const std::vector<Result>& results) {
   std::string text = "case,pass,measured,relation,bound,unit,reference,what,where\n";
   for (const Result& result : results)
     for (const Row& row : result.rows)
-      text += fmt::format("{},{},{:.10g},{},{:.10g},{},{},{},{}\n", row.case_id, row.pass() ? 1 : 0, row.measured, relation(row),
-                          row.bound, quoted(row.unit), quoted(row.reference), quoted(row.what), quoted(row.where));
+      text += fmt::format("{},{},{:.10g},{},{:.10g},{},{},{},{}\n", row.case_id, row.pass() ? 1 : 0,
+                          row.measured, relation(row), row.bound, quoted(row.unit), quoted(row.reference),
+                          quoted(row.what), quoted(row.where));
   return text;
 }
 
@@ -168,7 +174,8 @@ std::string curve_csv(const Curve& curve) {
   text += "\n";
   for (const auto& row : curve.rows)
     for (std::size_t i = 0; i < row.size(); ++i)
-      text += (std::isfinite(row[i]) ? fmt::format("{:.10g}", row[i]) : "") + (i + 1 < row.size() ? "," : "\n");
+      text +=
+          (std::isfinite(row[i]) ? fmt::format("{:.10g}", row[i]) : "") + (i + 1 < row.size() ? "," : "\n");
   return text;
 }
 
@@ -194,7 +201,8 @@ void write_curve_picture(const Curve& curve, const std::string& path) {
 std::string to_bytes(const Result& result) {
   Json json = {{"rows", Json::array()}, {"curves", Json::array()}};
   for (const Row& r : result.rows)
-    json["rows"].push_back({r.case_id, r.what, r.measured, r.bound, r.unit, r.reference, static_cast<int>(r.kind), r.where});
+    json["rows"].push_back(
+        {r.case_id, r.what, r.measured, r.bound, r.unit, r.reference, static_cast<int>(r.kind), r.where});
   for (const Curve& c : result.curves)
     json["curves"].push_back({c.name, c.title, c.columns, c.rows, c.logarithmic, c.y_label});
   const auto cbor = Json::to_cbor(json);
@@ -205,12 +213,13 @@ Result result_from_bytes(const std::string& bytes) {
   const Json json = Json::from_cbor(bytes);
   Result result;
   for (const Json& r : json.at("rows"))
-    result.rows.push_back({r[0].get<std::string>(), r[1].get<std::string>(), r[2].get<double>(), r[3].get<double>(),
-                           r[4].get<std::string>(), r[5].get<std::string>(), static_cast<Bound>(r[6].get<int>()),
-                           r[7].get<std::string>()});
+    result.rows.push_back({r[0].get<std::string>(), r[1].get<std::string>(), r[2].get<double>(),
+                           r[3].get<double>(), r[4].get<std::string>(), r[5].get<std::string>(),
+                           static_cast<Bound>(r[6].get<int>()), r[7].get<std::string>()});
   for (const Json& c : json.at("curves"))
-    result.curves.push_back({c[0].get<std::string>(), c[1].get<std::string>(), c[2].get<std::vector<std::string>>(),
-                             c[3].get<std::vector<std::vector<double>>>(), c[4].get<bool>(), c[5].get<std::string>()});
+    result.curves.push_back(
+        {c[0].get<std::string>(), c[1].get<std::string>(), c[2].get<std::vector<std::string>>(),
+         c[3].get<std::vector<std::vector<double>>>(), c[4].get<bool>(), c[5].get<std::string>()});
   return result;
 }
 

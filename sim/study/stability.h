@@ -25,9 +25,10 @@ struct StabilityOptions {
   int jobs = 1;
 };
 
-/// Runs the cases in worker processes, each on machines at level `function`; results in the suites' order. Throws
-/// UserError for a case that is not known.
-std::vector<stability::Result> run_stability(const Catalogue& catalogue, const std::vector<StabilitySuite>& suites,
+/// Runs the cases in worker processes, each on machines at level `function`; results in the suites' order.
+/// Throws UserError for a case that is not known.
+std::vector<stability::Result> run_stability(const Catalogue& catalogue,
+                                             const std::vector<StabilitySuite>& suites,
                                              const StabilityOptions& options, Progress* progress);
 
 /// True when every row passes.

@@ -10,16 +10,16 @@ namespace dendro::half_space {
 std::vector<stability::Case> stability_cases();
 
 // One case each; what it measures stands beside its table in the file of its name.
-stability::Result steep_planes(const stability::Rig& rig, std::uint64_t seed);         // N-A1
-stability::Result depth_drift(const stability::Rig& rig, std::uint64_t seed);          // N-A2
-stability::Result edge_on_planes(const stability::Rig& rig, std::uint64_t seed);       // N-A3
-stability::Result register_width(const stability::Rig& rig, std::uint64_t seed);       // N-A4
-stability::Result ties(const stability::Rig& rig, std::uint64_t seed);                 // N-A5
-stability::Result multiplier(const stability::Rig& rig, std::uint64_t seed);           // N-A10
-stability::Result permuted_planes(const stability::Rig& rig, std::uint64_t seed);      // X1
-stability::Result quarter_turn(const stability::Rig& rig, std::uint64_t seed);         // X2
-stability::Result scaled_by_two(const stability::Rig& rig, std::uint64_t seed);        // X3
-stability::Result mirrored(const stability::Rig& rig, std::uint64_t seed);             // X4
-stability::Result tiled(const stability::Rig& rig, std::uint64_t seed);                // X6
+stability::Result steep_planes(const stability::Rig& rig, std::uint64_t seed);     // N-A1
+stability::Result depth_drift(const stability::Rig& rig, std::uint64_t seed);      // N-A2
+stability::Result edge_on_planes(const stability::Rig& rig, std::uint64_t seed);   // N-A3
+stability::Result register_width(const stability::Rig& rig, std::uint64_t seed);   // N-A4
+stability::Result ties(const stability::Rig& rig, std::uint64_t seed);             // N-A5
+stability::Result multiplier(const stability::Rig& rig, std::uint64_t seed);       // N-A10
+stability::Result permuted_planes(const stability::Rig& rig, std::uint64_t seed);  // X1
+stability::Result quarter_turn(const stability::Rig& rig, std::uint64_t seed);     // X2
+stability::Result scaled_by_two(const stability::Rig& rig, std::uint64_t seed);    // X3
+stability::Result mirrored(const stability::Rig& rig, std::uint64_t seed);         // X4
+stability::Result tiled(const stability::Rig& rig, std::uint64_t seed);            // X6
 
 }  // namespace dendro::half_space

@@ -5,8 +5,8 @@
 
 #include "firmware/half_space/stability/support.h"
 
-// N-A2. start, step_x and step_y are each off by up to half (rounded) or one (truncated) 2^-16, so that the value i
-// pixels and j lines further is off by at most i + j + 1 of those.
+// N-A2. start, step_x and step_y are each off by up to half (rounded) or one (truncated) 2^-16, so that the
+// value i pixels and j lines further is off by at most i + j + 1 of those.
 
 namespace dendro::half_space {
 namespace {
@@ -19,7 +19,8 @@ struct Hull {
   double height;
 };
 
-constexpr Hull kHulls[] = {{"icosahedron", 512, 2.6}, {"dodecahedron", 512, 2.4}, {"", 512, 3.0}, {"icosahedron", 300, 4.0}};
+constexpr Hull kHulls[] = {
+    {"icosahedron", 512, 2.6}, {"dodecahedron", 512, 2.4}, {"", 512, 3.0}, {"icosahedron", 300, 4.0}};
 
 /// Planes drawn one by one on the machine in the first hull.
 constexpr int kAlone = 12;
@@ -46,8 +47,8 @@ void follow(const PlaneRecord& record, std::size_t index, Enclosure& enclosure, 
       const double error = static_cast<double>(std::abs(value * 65536 - exact)) * 0x1p-32;
       const double bound = static_cast<double>(enclosure.slack(index, x, y)) * 0x1p-32;
       drift.see(error, bound, [&] {
-        return fmt::format("{}: plane {}, pixel ({}, {}), step {} of line {}: off by {:.6f}, allowed {:.6f}", hull,
-                           index + 1, x, y, x - box.x0, y - box.y0, error, bound);
+        return fmt::format("{}: plane {}, pixel ({}, {}), step {} of line {}: off by {:.6f}, allowed {:.6f}",
+                           hull, index + 1, x, y, x - box.x0, y - box.y0, error, bound);
       });
     }
   }
@@ -79,8 +80,8 @@ struct Totals {
   double bound = 0;
 };
 
-void measure(const stability::Rig& rig, const Hull& hull, const scene::Object& object, Rounding rounding, bool each,
-             Totals& totals) {
+void measure(const stability::Rig& rig, const Hull& hull, const scene::Object& object, Rounding rounding,
+             bool each, Totals& totals) {
   const std::string name = fmt::format("{} {}", *hull.solid ? hull.solid : "random hull", hull.side);
   Prepared prepared = prepare(looking_at(object, hull.side, hull.height));
   PlaneProgram& program = prepared.program;
@@ -116,13 +117,13 @@ stability::Result depth_drift(const stability::Rig& rig, std::uint64_t seed) {
       const scene::Object object = *hull.solid ? random_solid(random, hull.solid) : random_hull(random, 12);
       measure(rig, hull, object, rounding, &hull == kHulls, totals);
     }
-    result.rows.push_back({"N-A2", how + " increments: largest drift of a depth", totals.drift.largest, totals.bound,
-                           "depth units", "gmp", Bound::kAtMost, totals.drift.where});
-    result.rows.push_back({"N-A2", how + " increments: largest share of a pixel's own bound", totals.drift.share, 1, "",
-                           "gmp", Bound::kAtMost, totals.drift.worst});
-    result.rows.push_back({"N-A2", fmt::format("{}: {} planes alone on the machine, pixels outside the bound", how, kAlone),
-                           static_cast<double>(totals.alone.count), 0, "pixels", "gmp", Bound::kAtMost,
-                           totals.alone.first});
+    result.rows.push_back({"N-A2", how + " increments: largest drift of a depth", totals.drift.largest,
+                           totals.bound, "depth units", "gmp", Bound::kAtMost, totals.drift.where});
+    result.rows.push_back({"N-A2", how + " increments: largest share of a pixel's own bound",
+                           totals.drift.share, 1, "", "gmp", Bound::kAtMost, totals.drift.worst});
+    result.rows.push_back(
+        {"N-A2", fmt::format("{}: {} planes alone on the machine, pixels outside the bound", how, kAlone),
+         static_cast<double>(totals.alone.count), 0, "pixels", "gmp", Bound::kAtMost, totals.alone.first});
     result.rows.push_back({"N-A2", how + ": whole hulls on the machine, pixels outside the bound",
                            static_cast<double>(totals.machine.count), 0, "pixels", "gmp", Bound::kAtMost,
                            totals.machine.first});

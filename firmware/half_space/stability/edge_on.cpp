@@ -2,8 +2,9 @@
 
 #include "firmware/half_space/stability/support.h"
 
-// N-A3. Seen along a two-fold axis, 4 of the icosahedron's 20 planes have c = 0 exactly. The half-plane test is exact but
-// for the rounding of the record's three numbers, which moves a line by at most 0.008 of a pixel over 512 lines.
+// N-A3. Seen along a two-fold axis, 4 of the icosahedron's 20 planes have c = 0 exactly. The half-plane test
+// is exact but for the rounding of the record's three numbers, which moves a line by at most 0.008 of a pixel
+// over 512 lines.
 
 namespace dendro::half_space {
 namespace {
@@ -17,7 +18,8 @@ struct View {
 };
 
 /// The first is Figure 4's.
-constexpr View kViews[] = {{512, 2.6, 0}, {512, 2.0, 90}, {511, 1.7, 0}, {256, 2.6, 180}, {200, 3.1, 90}, {64, 2.2, 0}};
+constexpr View kViews[] = {{512, 2.6, 0},   {512, 2.0, 90}, {511, 1.7, 0},
+                           {256, 2.6, 180}, {200, 3.1, 90}, {64, 2.2, 0}};
 
 Prepared icosahedron(const View& view) {
   scene::Object object;
@@ -41,7 +43,8 @@ struct Totals {
 };
 
 /// Every pixel against the sign of a·x + b·y + d in rationals.
-void compare_half_planes(const Words& words, const Prepared& slab, const std::string& name, bool is_figure, Totals& totals) {
+void compare_half_planes(const Words& words, const Prepared& slab, const std::string& name, bool is_figure,
+                         Totals& totals) {
   Enclosure enclosure(slab);
   const int width = slab.program.width;
   for (int y = 0; y < slab.program.height; ++y)
@@ -57,9 +60,9 @@ void compare_half_planes(const Words& words, const Prepared& slab, const std::st
       totals.near += near;
       if (covered == outside.empty()) continue;
       totals.near_differ += near;
-      const std::string where = fmt::format("{}: pixel ({}, {}), step {} of line {}, is {}: {}", name, x, y, x, y,
-                                            covered ? "covered" : "empty",
-                                            outside.empty() ? "it is inside all planes" : outside);
+      const std::string where =
+          fmt::format("{}: pixel ({}, {}), step {} of line {}, is {}: {}", name, x, y, x, y,
+                      covered ? "covered" : "empty", outside.empty() ? "it is inside all planes" : outside);
       if (!near) totals.half_planes.fault(where);
       if (is_figure) totals.figure.fault(where);
     }
@@ -83,13 +86,15 @@ stability::Result edge_on_planes(const stability::Rig& rig, std::uint64_t) {
     compare_half_planes(draw(rig, slab), slab, name, &view == kViews, totals);
   }
   const auto row = [](const std::string& what, const Tally& tally, const char* unit) {
-    return stability::Row{"N-A3", what, static_cast<double>(tally.count), 0, unit, "gmp", Bound::kAtMost, tally.first};
+    return stability::Row{"N-A3",         what,       static_cast<double>(tally.count), 0, unit, "gmp",
+                          Bound::kAtMost, tally.first};
   };
-  return {{row(fmt::format("{} views without exactly 4 edge-on and 16 other faces", std::size(kViews)), totals.counts,
-               "views"),
+  return {{row(fmt::format("{} views without exactly 4 edge-on and 16 other faces", std::size(kViews)),
+               totals.counts, "views"),
            row("Figure 4's view: pixels that differ from the exact half-plane test", totals.figure, "pixels"),
-           row(fmt::format("all views: pixels that differ outside a record's rounding ({} of {} differ inside it)",
-                           totals.near_differ, totals.near),
+           row(fmt::format(
+                   "all views: pixels that differ outside a record's rounding ({} of {} differ inside it)",
+                   totals.near_differ, totals.near),
                totals.half_planes, "pixels"),
            row("icosahedron: words that differ from the records' exact values", totals.records, "pixels"),
            row("icosahedron: pixels outside what the exact planes allow", totals.picture, "pixels")},

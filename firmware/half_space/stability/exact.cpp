@@ -80,8 +80,8 @@ std::int64_t Enclosure::slack(std::size_t index, int x, int y) const {
   const int i = x - box.x0, j = y - box.y0;
   // What the host's double precision adds: quotients are right to half an ulp, the start's sum to a few.
   const double divisor = p.kind == PlaneKind::kEdgeOn ? largest_of(p) : std::abs(p.c);
-  const double sizes = std::abs(p.a) * (i + 1 + 4 * box.x0) + std::abs(p.b) * (j + 1 + 4 * box.y0) +
-                       4 * std::abs(p.d);
+  const double sizes =
+      std::abs(p.a) * (i + 1 + 4 * box.x0) + std::abs(p.b) * (j + 1 + 4 * box.y0) + 4 * std::abs(p.d);
   const double host = divisor > 0 ? std::min(std::ceil(sizes / divisor * kUnit * 0x1p-52) + 1, 0x1p60) : 1;
   return (i + j + 1) * step_slack_ + static_cast<std::int64_t>(host);
 }
@@ -116,9 +116,9 @@ Enclosure::Pixel Enclosure::at(int x, int y) {
 std::string Enclosure::describe(std::size_t index, int x, int y) {
   const Box& box = prepared_.program.box;
   const ScreenPlane& p = prepared_.screen[index];
-  return fmt::format("plane {} ({}{}) at step {} of line {} is at {:.6f} +- {:.6f}", index + 1, name_of(p.kind),
-                     p.face != 0 ? fmt::format(", face {}", p.face) : "", x - box.x0, y - box.y0,
-                     static_cast<double>(exact_[index].floor32(x, y)) / kUnit,
+  return fmt::format("plane {} ({}{}) at step {} of line {} is at {:.6f} +- {:.6f}", index + 1,
+                     name_of(p.kind), p.face != 0 ? fmt::format(", face {}", p.face) : "", x - box.x0,
+                     y - box.y0, static_cast<double>(exact_[index].floor32(x, y)) / kUnit,
                      static_cast<double>(slack(index, x, y)) / kUnit);
 }
 
@@ -139,7 +139,8 @@ std::string Enclosure::objection(int x, int y, std::uint32_t word) {
   const int face = face_of(word), depth = depth_of(word);
   std::string why;
   if (face == 0) {
-    const bool surely = !pixel.maybe_outside && pixel.front.high < pixel.back.low && pixel.back.high < maxdepth;
+    const bool surely =
+        !pixel.maybe_outside && pixel.front.high < pixel.back.low && pixel.back.high < maxdepth;
     if (!surely) return "";
     why = describe(pixel.highest_front, x, y) + " before " + describe(pixel.lowest_back, x, y);
   } else if (pixel.surely_outside) {

@@ -29,7 +29,7 @@ class ExactPlane {
 
   PlaneKind kind_;
   int face_;
-  mpz_class x_, y_, one_, divisor_;    // value = (x_·x + y_·y + one_) / divisor_, divisor_ > 0
+  mpz_class x_, y_, one_, divisor_;  // value = (x_·x + y_·y + one_) / divisor_, divisor_ > 0
   mpz_class x32_, y32_, one32_, work_, quotient_;
 };
 

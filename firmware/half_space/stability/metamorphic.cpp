@@ -4,8 +4,8 @@
 
 #include "firmware/half_space/stability/support.h"
 
-// X1 to X4 and X6. They need no reference picture; where rounding differs between two pictures, the exact planes say
-// which pixels may.
+// X1 to X4 and X6. They need no reference picture; where rounding differs between two pictures, the exact
+// planes say which pixels may.
 
 namespace dendro::half_space {
 namespace {
@@ -18,7 +18,8 @@ struct Hull {
   std::int64_t depth_bits;
 };
 
-constexpr Hull kHulls[] = {{0, 64, 12}, {6, 200, 12}, {12, 199, 8}, {20, 256, 12}, {30, 150, 10}, {12, 100, 6}};
+constexpr Hull kHulls[] = {{0, 64, 12},   {6, 200, 12},  {12, 199, 8},
+                           {20, 256, 12}, {30, 150, 10}, {12, 100, 6}};
 
 using Real = scene::OptionValue;
 
@@ -31,20 +32,21 @@ scene::Scene hull_scene(std::mt19937_64& random, const Hull& hull) {
 }
 
 std::string name_of(const Hull& hull, std::uint64_t seed) {
-  return fmt::format("hull of 6 + {} planes, side {}, {} bits, seed {}", hull.cuts, hull.side, hull.depth_bits, seed);
+  return fmt::format("hull of 6 + {} planes, side {}, {} bits, seed {}", hull.cuts, hull.side,
+                     hull.depth_bits, seed);
 }
 
 struct Totals {
-  Tally unexplained;      ///< differ although the exact planes decide the pixel
-  Tally first, second;    ///< impossible words of either picture
+  Tally unexplained;    ///< differ although the exact planes decide the pixel
+  Tally first, second;  ///< impossible words of either picture
   std::int64_t differ = 0, pixels = 0, covered = 0;
 };
 
 using Place = std::function<std::size_t(int x, int y)>;
 
 /// `second[place(x, y)]` has to be `first` at (x, y).
-void compare_moved(const Words& first, const Words& second, const Place& place, Enclosure& enclosure, int side,
-                   const std::string& name, Totals& totals) {
+void compare_moved(const Words& first, const Words& second, const Place& place, Enclosure& enclosure,
+                   int side, const std::string& name, Totals& totals) {
   for (int y = 0; y < side; ++y)
     for (int x = 0; x < side; ++x) {
       const std::uint32_t a = first[static_cast<std::size_t>(y) * side + x], b = second[place(x, y)];
@@ -53,15 +55,16 @@ void compare_moved(const Words& first, const Words& second, const Place& place, 
       if (a == b) continue;
       ++totals.differ;
       if (!enclosure.decided(x, y)) continue;
-      totals.unexplained.fault(fmt::format("{}: pixel ({}, {}) is 0x{:06x}, transformed 0x{:06x}", name, x, y, a, b));
+      totals.unexplained.fault(
+          fmt::format("{}: pixel ({}, {}) is 0x{:06x}, transformed 0x{:06x}", name, x, y, a, b));
     }
 }
 
 using Transform = std::function<void(scene::Scene&)>;
 using PlaceIn = std::function<std::size_t(int x, int y, int side)>;
 
-stability::Result transformed(const stability::Rig& rig, std::uint64_t seed, const std::string& id, const Transform& transform,
-                              const PlaceIn& place, bool exact) {
+stability::Result transformed(const stability::Rig& rig, std::uint64_t seed, const std::string& id,
+                              const Transform& transform, const PlaceIn& place, bool exact) {
   std::mt19937_64 random(seed);
   Totals totals;
   for (const Hull& hull : kHulls) {
@@ -74,23 +77,27 @@ stability::Result transformed(const stability::Rig& rig, std::uint64_t seed, con
     const Words first = draw(rig, prepared), second = draw(rig, moved);
     compare_enclosed(first, enclosure, hull.side, name, totals.first);
     compare_enclosed(second, around, hull.side, name + ", transformed", totals.second);
-    compare_moved(first, second, [&](int x, int y) { return place(x, y, hull.side); }, enclosure, hull.side, name, totals);
+    compare_moved(
+        first, second, [&](int x, int y) { return place(x, y, hull.side); }, enclosure, hull.side, name,
+        totals);
   }
   const std::string of = fmt::format("{} hulls, {} covered pixels", std::size(kHulls), totals.covered);
   const auto count = [](const Tally& tally) { return static_cast<double>(tally.count); };
   stability::Result result;
   if (exact)
-    result.rows.push_back({id, "pixels that differ, " + of, static_cast<double>(totals.differ), 0, "pixels", "machine",
-                           Bound::kAtMost, totals.unexplained.first});
+    result.rows.push_back({id, "pixels that differ, " + of, static_cast<double>(totals.differ), 0, "pixels",
+                           "machine", Bound::kAtMost, totals.unexplained.first});
   else
-    result.rows.push_back({id, fmt::format("pixels that differ outside the bound of N-A2 ({} differ inside it), {}",
-                                           totals.differ - totals.unexplained.count, of),
-                           count(totals.unexplained), 0, "pixels", "machine", Bound::kAtMost, totals.unexplained.first});
+    result.rows.push_back(
+        {id,
+         fmt::format("pixels that differ outside the bound of N-A2 ({} differ inside it), {}",
+                     totals.differ - totals.unexplained.count, of),
+         count(totals.unexplained), 0, "pixels", "machine", Bound::kAtMost, totals.unexplained.first});
   result.rows.push_back({id, "pixels of either picture outside what the exact planes allow",
                          count(totals.first) + count(totals.second), 0, "pixels", "gmp", Bound::kAtMost,
                          totals.first.count > 0 ? totals.first.first : totals.second.first});
-  result.rows.push_back({id, "covered pixels, so that the pictures show something", static_cast<double>(totals.covered), 0,
-                         "pixels", "machine", Bound::kMoreThan, ""});
+  result.rows.push_back({id, "covered pixels, so that the pictures show something",
+                         static_cast<double>(totals.covered), 0, "pixels", "machine", Bound::kMoreThan, ""});
   return result;
 }
 
@@ -135,7 +142,8 @@ std::vector<Box> tiles(int side, int columns, int rows) {
   std::vector<Box> boxes;
   for (int j = 0; j < rows; ++j)
     for (int i = 0; i < columns; ++i)
-      boxes.push_back({i * side / columns, j * side / rows, (i + 1) * side / columns - 1, (j + 1) * side / rows - 1});
+      boxes.push_back(
+          {i * side / columns, j * side / rows, (i + 1) * side / columns - 1, (j + 1) * side / rows - 1});
   return boxes;
 }
 
@@ -155,9 +163,10 @@ stability::Result permuted_planes(const stability::Rig& rig, std::uint64_t seed)
     for (int y = 0; y < hull.side; ++y)
       for (int x = 0; x < hull.side; ++x) {
         const std::size_t i = static_cast<std::size_t>(y) * hull.side + x;
-        const std::string place = fmt::format("{}: pixel ({}, {}) is 0x{:06x}, permuted 0x{:06x}", name_of(hull, seed), x, y,
-                                              first[i], second[i]);
-        const bool same = (face_of(first[i]) != 0) == (face_of(second[i]) != 0) && depth_of(first[i]) == depth_of(second[i]);
+        const std::string place = fmt::format("{}: pixel ({}, {}) is 0x{:06x}, permuted 0x{:06x}",
+                                              name_of(hull, seed), x, y, first[i], second[i]);
+        const bool same = (face_of(first[i]) != 0) == (face_of(second[i]) != 0) &&
+                          depth_of(first[i]) == depth_of(second[i]);
         if (!same) shape.fault(place);
         if (!same || first[i] == second[i]) continue;
         if (is_tied(program, x, y, depth_of(first[i]))) {
@@ -176,7 +185,10 @@ stability::Result permuted_planes(const stability::Rig& rig, std::uint64_t seed)
 
 stability::Result quarter_turn(const stability::Rig& rig, std::uint64_t seed) {
   return transformed(
-      rig, seed, "X2", [](scene::Scene& scene) { scene.camera.up = {1, 0, 0}; },
+      rig, seed, "X2",
+      [](scene::Scene& scene) {
+        scene.camera.up = {1, 0, 0};
+      },
       [](int x, int y, int side) { return static_cast<std::size_t>(side - 1 - x) * side + y; }, false);
 }
 
@@ -224,9 +236,14 @@ stability::Result tiled(const stability::Rig& rig, std::uint64_t seed) {
       compare_enclosed(joined, enclosure, hull.side, split, anew_outside);
     }
   }
-  return {{{"X6", fmt::format("pixels that differ, {} hulls in 3 tilings, records moved by whole steps", std::size(kHulls)),
+  return {{{"X6",
+            fmt::format("pixels that differ, {} hulls in 3 tilings, records moved by whole steps",
+                        std::size(kHulls)),
             static_cast<double>(moved.count), 0, "pixels", "machine", Bound::kAtMost, moved.first},
-           {"X6", fmt::format("records set up anew for each tile: pixels outside the bound of N-A2 ({} differ inside it)", anew),
+           {"X6",
+            fmt::format(
+                "records set up anew for each tile: pixels outside the bound of N-A2 ({} differ inside it)",
+                anew),
             static_cast<double>(anew_outside.count), 0, "pixels", "gmp", Bound::kAtMost, anew_outside.first}},
           {}};
 }

@@ -16,11 +16,13 @@ constexpr const char* kProgram = "firmware/half_space/stability/multiplier.gia";
 constexpr std::size_t kBatch = 1024;
 constexpr int kRandomPairs = 4096;
 
-constexpr std::uint16_t kCorners[] = {0x0000, 0x0001, 0x0002, 0x0003, 0x00FF, 0x0100, 0x0FFF, 0x1000, 0x1001, 0x3FFF, 0x4000, 0x5555,
-                                      0x7FFE, 0x7FFF, 0x8000, 0x8001, 0x8002, 0xAAAA, 0xBFFF, 0xC000, 0xF000, 0xFF00, 0xFFFE, 0xFFFF};
+constexpr std::uint16_t kCorners[] = {0x0000, 0x0001, 0x0002, 0x0003, 0x00FF, 0x0100, 0x0FFF, 0x1000,
+                                      0x1001, 0x3FFF, 0x4000, 0x5555, 0x7FFE, 0x7FFF, 0x8000, 0x8001,
+                                      0x8002, 0xAAAA, 0xBFFF, 0xC000, 0xF000, 0xFF00, 0xFFFE, 0xFFFF};
 
 using Pair = std::pair<std::uint16_t, std::uint16_t>;
-constexpr std::array<const char*, 4> kResults = {"signed product", "unsigned product", "signed product rounded down to 2^16",
+constexpr std::array<const char*, 4> kResults = {"signed product", "unsigned product",
+                                                 "signed product rounded down to 2^16",
                                                  "signed product rounded to the nearest 2^16"};
 
 std::array<std::uint32_t, 4> exact(const Pair& pair) {
@@ -86,13 +88,14 @@ stability::Result multiplier(const stability::Rig& rig, std::uint64_t seed) {
     const auto wanted = exact(all[i]);
     for (std::size_t k = 0; k < wanted.size(); ++k)
       if (results[4 * i + k] != wanted[k])
-        tallies[k].fault(fmt::format("step {}: 0x{:04x} times 0x{:04x} is 0x{:08x}, not 0x{:08x}", i, all[i].first, all[i].second,
-                                     results[4 * i + k], wanted[k]));
+        tallies[k].fault(fmt::format("step {}: 0x{:04x} times 0x{:04x} is 0x{:08x}, not 0x{:08x}", i,
+                                     all[i].first, all[i].second, results[4 * i + k], wanted[k]));
   }
   stability::Result result;
   for (std::size_t k = 0; k < tallies.size(); ++k)
     result.rows.push_back({"N-A10", fmt::format("{}, {} pairs", kResults[k], all.size()),
-                           static_cast<double>(tallies[k].count), 0, "products", "gmp", Bound::kAtMost, tallies[k].first});
+                           static_cast<double>(tallies[k].count), 0, "products", "gmp", Bound::kAtMost,
+                           tallies[k].first});
   return result;
 }
 

@@ -24,15 +24,16 @@ Words draw_all(const stability::Rig& rig, const std::vector<Prepared>& parts) {
       [&](const MachineView& machine) {
         for (int y = 0; y < parts.front().program.height; ++y)
           for (int x = 0; x < parts.front().program.width; ++x)
-            words.push_back(machine.peek(static_cast<std::uint32_t>(x) << 1 | static_cast<std::uint32_t>(y) << 11,
-                                         kLoresPixel));
+            words.push_back(machine.peek(
+                static_cast<std::uint32_t>(x) << 1 | static_cast<std::uint32_t>(y) << 11, kLoresPixel));
       });
   return words;
 }
 
 Words draw(const stability::Rig& rig, const Prepared& prepared) { return draw_all(rig, {prepared}); }
 
-Prepared from_screen(std::vector<ScreenPlane> planes, int width, int height, SteepPolicy steep, int maxdepth) {
+Prepared from_screen(std::vector<ScreenPlane> planes, int width, int height, SteepPolicy steep,
+                     int maxdepth) {
   Prepared prepared;
   PlaneProgram& program = prepared.program;
   program.width = width, program.height = height;
@@ -106,13 +107,14 @@ void compare_words(const Words& got, const Words& wanted, int width, const std::
     ++tally.pixels;
     if (got[i] == wanted[i]) continue;
     const int x = static_cast<int>(i) % width, y = static_cast<int>(i) / width;
-    tally.fault(fmt::format("{}: pixel ({}, {}) is 0x{:06x}, not 0x{:06x}: face {} at {} instead of {} at {}", scene,
-                            x, y, got[i], wanted[i], face_of(got[i]), depth_of(got[i]), face_of(wanted[i]),
-                            depth_of(wanted[i])));
+    tally.fault(fmt::format("{}: pixel ({}, {}) is 0x{:06x}, not 0x{:06x}: face {} at {} instead of {} at {}",
+                            scene, x, y, got[i], wanted[i], face_of(got[i]), depth_of(got[i]),
+                            face_of(wanted[i]), depth_of(wanted[i])));
   }
 }
 
-void compare_enclosed(const Words& got, Enclosure& enclosure, int width, const std::string& scene, Tally& tally) {
+void compare_enclosed(const Words& got, Enclosure& enclosure, int width, const std::string& scene,
+                      Tally& tally) {
   for (std::size_t i = 0; i < got.size(); ++i) {
     ++tally.pixels;
     const int x = static_cast<int>(i) % width, y = static_cast<int>(i) / width;

@@ -19,8 +19,8 @@ Words draw(const stability::Rig& rig, const Prepared& prepared);
 Words draw_all(const stability::Rig& rig, const std::vector<Prepared>& parts);
 
 /// Planes that are on the screen already, scanned over the whole picture in their order.
-Prepared from_screen(std::vector<ScreenPlane> planes, int width, int height, SteepPolicy steep = SteepPolicy::kWide,
-                     int maxdepth = 4095);
+Prepared from_screen(std::vector<ScreenPlane> planes, int width, int height,
+                     SteepPolicy steep = SteepPolicy::kWide, int maxdepth = 4095);
 
 /// A parallel view along -z on a square picture; `height` metres are shown.
 scene::Scene looking_at(scene::Object object, int side, double height);
@@ -43,13 +43,16 @@ struct Tally {
   void fault(const std::string& where) {
     if (count++ == 0) first = where;
   }
-  double per_million() const { return pixels > 0 ? 1e6 * static_cast<double>(count) / static_cast<double>(pixels) : 0; }
+  double per_million() const {
+    return pixels > 0 ? 1e6 * static_cast<double>(count) / static_cast<double>(pixels) : 0;
+  }
 };
 
 /// Pixels whose words differ.
 void compare_words(const Words& got, const Words& wanted, int width, const std::string& scene, Tally& tally);
 
 /// Pixels whose word is not possible.
-void compare_enclosed(const Words& got, Enclosure& enclosure, int width, const std::string& scene, Tally& tally);
+void compare_enclosed(const Words& got, Enclosure& enclosure, int width, const std::string& scene,
+                      Tally& tally);
 
 }  // namespace dendro::half_space

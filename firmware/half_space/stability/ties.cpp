@@ -80,12 +80,15 @@ stability::Result ties(const stability::Rig& rig, std::uint64_t seed) {
       std::shuffle(planes.begin(), planes.end(), random);
     }
   }
-  return {{{"N-A5", fmt::format("words against the sign of front - back, {} pixels covered, {} empty", covered.count, tied),
+  return {{{"N-A5",
+            fmt::format("words against the sign of front - back, {} pixels covered, {} empty", covered.count,
+                        tied),
             static_cast<double>(exact.count), 0, "pixels", "gmp", Bound::kAtMost, exact.first},
-           {"N-A5", fmt::format("pixels that change with the order of the planes, {} orders of each set", kOrders),
+           {"N-A5",
+            fmt::format("pixels that change with the order of the planes, {} orders of each set", kOrders),
             static_cast<double>(order.count), 0, "pixels", "machine", Bound::kAtMost, order.first},
-           {"N-A5", "covered pixels, so that the sets decide something", static_cast<double>(covered.count), 0, "pixels",
-            "machine", Bound::kMoreThan, ""}},
+           {"N-A5", "covered pixels, so that the sets decide something", static_cast<double>(covered.count),
+            0, "pixels", "machine", Bound::kMoreThan, ""}},
           {}};
 }
 

@@ -5,8 +5,8 @@
 
 #include "firmware/half_space/stability/support.h"
 
-// N-A4. A hull 160 pixels wide in a depth range of 512 pixels. A pixel that the real hull covers is lost when both its
-// depths fall into one step of the register; so each bit halves the loss.
+// N-A4. A hull 160 pixels wide in a depth range of 512 pixels. A pixel that the real hull covers is lost when
+// both its depths fall into one step of the register; so each bit halves the loss.
 
 namespace dendro::half_space {
 namespace {
@@ -43,11 +43,12 @@ Prepared at_width(std::vector<ScreenPlane> planes, int bits) {
 }
 
 struct Loss {
-  std::int64_t lost = 0;       ///< covered in rationals, not in the register
-  std::int64_t thin = 0;       ///< covered in rationals and thinner than a step, with the bound of N-A2 on both sides
-  std::int64_t machine = 0;    ///< lost by the machine
-  std::int64_t covered = 0;    ///< by the real hull
-  Tally unexplained;           ///< lost although thicker, or gained
+  std::int64_t lost = 0;  ///< covered in rationals, not in the register
+  std::int64_t thin =
+      0;  ///< covered in rationals and thinner than a step, with the bound of N-A2 on both sides
+  std::int64_t machine = 0;  ///< lost by the machine
+  std::int64_t covered = 0;  ///< by the real hull
+  Tally unexplained;         ///< lost although thicker, or gained
   Tally machine_unexplained;
 };
 
@@ -64,12 +65,13 @@ std::int64_t thickness(Enclosure& enclosure, const Prepared& prepared, int x, in
   return back - front;
 }
 
-void count_pixel(const std::string& name, int x, int y, const Words* words, std::int64_t thick, std::int64_t front,
-                 std::int64_t back, std::int64_t slack, Loss& loss) {
+void count_pixel(const std::string& name, int x, int y, const Words* words, std::int64_t thick,
+                 std::int64_t front, std::int64_t back, std::int64_t slack, Loss& loss) {
   constexpr std::int64_t kStep = std::int64_t{1} << 32;
   const bool covered = thick > 0, quantised = front >> 32 < back >> 32;
   const auto place = [&] {
-    return fmt::format("{}: pixel ({}, {}), thickness {:.6f} steps", name, x, y, static_cast<double>(thick) * 0x1p-32);
+    return fmt::format("{}: pixel ({}, {}), thickness {:.6f} steps", name, x, y,
+                       static_cast<double>(thick) * 0x1p-32);
   };
   loss.covered += covered;
   if (covered && thick < kStep + 2 * slack) ++loss.thin;
@@ -82,7 +84,8 @@ void count_pixel(const std::string& name, int x, int y, const Words* words, std:
   if (covered != shown && !explained) loss.machine_unexplained.fault(place());
 }
 
-void measure(const stability::Rig& rig, const Prepared& prepared, int bits, const std::string& name, Loss& loss) {
+void measure(const stability::Rig& rig, const Prepared& prepared, int bits, const std::string& name,
+             Loss& loss) {
   Enclosure enclosure(prepared);
   Words words;
   if (bits <= kMachineBits) words = draw(rig, prepared);
@@ -94,38 +97,48 @@ void measure(const stability::Rig& rig, const Prepared& prepared, int bits, cons
     }
 }
 
-double per_million(std::int64_t pixels) { return 1e6 * static_cast<double>(pixels) / (double(kHulls) * kFrame * kFrame); }
+double per_million(std::int64_t pixels) {
+  return 1e6 * static_cast<double>(pixels) / (double(kHulls) * kFrame * kFrame);
+}
 
 }  // namespace
 
 stability::Result register_width(const stability::Rig& rig, std::uint64_t seed) {
   stability::Result result;
-  stability::Curve curve{"N-A4", "Pixels lost at the silhouette, 160-pixel hulls in a range of 512", {"bits of the depth register",
-                         "exact planes (per 1e6)", "machine (per 1e6)", "thinner than a step (per 1e6)",
-                         "exact planes (per 1e6 covered)"}, {}, true,
+  stability::Curve curve{"N-A4",
+                         "Pixels lost at the silhouette, 160-pixel hulls in a range of 512",
+                         {"bits of the depth register", "exact planes (per 1e6)", "machine (per 1e6)",
+                          "thinner than a step (per 1e6)", "exact planes (per 1e6 covered)"},
+                         {},
+                         true,
                          "pixels lost per 1e6"};
   std::vector<double> measured;
   for (const int bits : kWidths) {
     std::mt19937_64 random(seed);
     Loss loss;
     for (int i = 0; i < kHulls; ++i)
-      measure(rig, at_width(hull(random), bits), bits, fmt::format("{} bits, hull {} of seed {}", bits, i + 1, seed), loss);
+      measure(rig, at_width(hull(random), bits), bits,
+              fmt::format("{} bits, hull {} of seed {}", bits, i + 1, seed), loss);
     measured.push_back(per_million(loss.lost));
     const bool on_machine = bits <= kMachineBits;
     curve.rows.push_back({double(bits), per_million(loss.lost), on_machine ? per_million(loss.machine) : NAN,
-                          per_million(loss.thin), 1e6 * static_cast<double>(loss.lost) / static_cast<double>(loss.covered)});
-    result.rows.push_back({"N-A4", fmt::format("{} bits: pixels lost; the bound are those thinner than a step", bits),
-                           per_million(on_machine ? loss.machine : loss.lost), per_million(loss.thin), "pixels per 1e6",
-                           "gmp", Bound::kAtMost, ""});
+                          per_million(loss.thin),
+                          1e6 * static_cast<double>(loss.lost) / static_cast<double>(loss.covered)});
+    result.rows.push_back({"N-A4",
+                           fmt::format("{} bits: pixels lost; the bound are those thinner than a step", bits),
+                           per_million(on_machine ? loss.machine : loss.lost), per_million(loss.thin),
+                           "pixels per 1e6", "gmp", Bound::kAtMost, ""});
     const Tally& odd = on_machine ? loss.machine_unexplained : loss.unexplained;
-    result.rows.push_back({"N-A4", fmt::format("{} bits: pixels lost or gained that are not thinner than a step{}", bits,
-                                               on_machine ? ", machine" : ", quantised planes"),
-                           static_cast<double>(odd.count + loss.unexplained.count), 0, "pixels", "gmp", Bound::kAtMost,
-                           odd.count > 0 ? odd.first : loss.unexplained.first});
+    result.rows.push_back({"N-A4",
+                           fmt::format("{} bits: pixels lost or gained that are not thinner than a step{}",
+                                       bits, on_machine ? ", machine" : ", quantised planes"),
+                           static_cast<double>(odd.count + loss.unexplained.count), 0, "pixels", "gmp",
+                           Bound::kAtMost, odd.count > 0 ? odd.first : loss.unexplained.first});
   }
   const double factor = std::pow(measured[0] / std::max(measured[3], 1e-9), 1.0 / (kWidths[3] - kWidths[0]));
-  result.rows.push_back({"N-A4", fmt::format("loss per bit from 6 to 12 bits falls by {:.3f}: distance from 2", factor),
-                         std::abs(factor - 2), 0.1, "", "halves per bit", Bound::kAtMost, ""});
+  result.rows.push_back(
+      {"N-A4", fmt::format("loss per bit from 6 to 12 bits falls by {:.3f}: distance from 2", factor),
+       std::abs(factor - 2), 0.1, "", "halves per bit", Bound::kAtMost, ""});
   result.curves.push_back(curve);
   return result;
 }

@@ -37,6 +37,7 @@ class RdsDriver {
 
   void write_scratch(std::uint32_t address, const std::vector<std::uint32_t>& words);
 
+  /// `count` scratchpad words from `address` on.
   std::vector<std::uint32_t> read_scratch(std::uint32_t address, std::size_t count);
 
   /// 1,024 entries: red bits 0-9, green 10-19, blue 20-29.
