@@ -77,7 +77,9 @@ std::string header_text(const Header& header) {
 }
 
 std::string Writer::file(const Header& header) {
-  std::string text = header_text(header) + fmt::format("records {}\n", records_);
+  // Right after the first line: what is cut after it is seen to be cut.
+  std::string text = header_text(header);
+  text.insert(text.find('\n') + 1, fmt::format("records {}\n", records_));
   if (compressor_) {
     compressor_->put(lines_, ZSTD_e_end);
     text += fmt::format("zstd {}\n", compressor_->packed.size());

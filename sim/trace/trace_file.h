@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -20,7 +21,7 @@ struct HeaderSetting {
   int line = 0;
 };
 
-/// The text at the head of a trace. docs/trace-formats.md has its grammar.
+/// The text at the head of a trace. docs/formats.md has its grammar.
 struct Header {
   std::string machine;                    ///< "rds3000:fg86"
   std::string boundary;                   ///< "rds3000.frame_memory"
@@ -70,8 +71,8 @@ class Reader {
   const std::string& name() const { return name_; }
   bool is_text() const { return decompressor_ == nullptr; }
 
-  /// The operations that next() admits; without, all. Must outlive the reader.
-  void expect(const Boundary& boundary) { boundary_ = &boundary; }
+  /// The operations that next() admits; without, all.
+  void expect(const Boundary& boundary) { boundary_ = boundary; }
 
   /// Reads the next record; false at the end. Throws UserError for a line that is none.
   bool next(Record& record);
@@ -90,7 +91,7 @@ class Reader {
 
   std::string name_, bytes_;
   Header header_;
-  const Boundary* boundary_ = nullptr;
+  std::optional<Boundary> boundary_;
   std::int64_t records_ = -1;   ///< promised by the header; -1: hand-written
   std::int64_t read_ = 0;
   std::size_t body_ = 0, body_end_ = 0, at_ = 0;

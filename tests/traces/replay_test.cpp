@@ -195,7 +195,7 @@ TEST(WhatIf, AnotherMachineDiffersFromTheTraceAndSaysWhere) {
     const ReplayOutput output = replay_trace(catalogue(), {path_of(file), "cycle", {setting}});
     return output.result.difference.value_or("");
   };
-  EXPECT_NE(std::string::npos, difference("waits-for-data.txt", "processor.accesses_in_flight=0").find("waits-for-data.txt:14:"));
+  EXPECT_NE(std::string::npos, difference("waits-for-data.txt", "processor.accesses_in_flight=0").find("waits-for-data.txt:15:"));
   EXPECT_NE(std::string::npos, difference("writes-to-one-card.txt", "frame_memory.card_busy_ticks=3").find("writes-to-one-card.txt:7:"));
   EXPECT_NE(std::string::npos, difference("dma-pace.txt", "host.dma_start_ms=2.0").find("dma-pace.txt:8:"));
 }

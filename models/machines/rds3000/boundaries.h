@@ -12,7 +12,7 @@ constexpr const char* kFrameMemoryBoundary = "rds3000.frame_memory";
 constexpr const char* kProcessorBoundary = "rds3000.processor";
 constexpr const char* kHostBoundary = "rds3000.host";
 
-/// The operations of each boundary: docs/trace-formats.md says what they mean.
+/// The operations of each boundary: docs/formats.md says what they mean.
 std::vector<trace::Boundary> boundaries();
 
 /// Drives the unit of the trace's boundary alone. Level is cycle or clocked; the host, which is one model at both,
