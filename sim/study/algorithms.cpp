@@ -129,7 +129,8 @@ const std::vector<Algorithm>& algorithms() {
        "firmware/half_space",
        make_half_space,
        {"planes", "plane_source", "directions", "unbounded", "starting_box", "boxing", "depth_bits",
-        "depth_margin", "depth_range", "steep", "diffuse", "colour", "background"}},
+        "depth_margin", "depth_range", "steep", "diffuse", "colour", "background", "registers", "near_shade", "far_shade",
+        "bands", "relief"}},
   };
   return list;
 }
