@@ -47,10 +47,12 @@ int execute(const study::Catalogue& catalogue, Options options) {
       throw UserError("--dump", 0, "", "`" + dump + "` asks for 0 words; at least 1");
   }
   check_window(options.exec.options);
-  study::OutputFile json(options.json);
+  study::OutputFile json(options.json), waveform(options.exec.options.vcd_file);
+  options.exec.options.vcd_file = waveform.work();
   study::Progress progress(options.progress);
   const study::ExecOutput output = study::exec_program(catalogue, options.exec, &progress);
   progress.clear();
+  waveform.commit();
   for (std::size_t i = 0; i < output.dumps.size(); ++i)
     for (std::size_t n = 0; n < output.dumps[i].size(); ++n)
       fmt::print("scratch[{}] = 0x{:08x}\n", options.exec.dumps[i].first + n, output.dumps[i][n]);

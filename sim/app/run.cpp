@@ -52,15 +52,17 @@ void add_interval(const study::RunRequest& request, int jobs, study::Progress& p
 int run(const study::Catalogue& catalogue, Options options) {
   check_window(options.run.options);
   options.run.options.vcd_units = split_units(options.vcd_units);
-  const study::RunRequest request = study::prepare_run(catalogue, options.run);
+  study::RunRequest request = study::prepare_run(catalogue, options.run);
   if (options.interval && request.level == Level::kFunction)
     throw UserError("--interval", 0, "", "there is no time at --level function");
   study::RunFolder folder(options.out.empty() ? "out/" + request.file.scene.name : options.out);
-  study::OutputFile json(options.json);
+  study::OutputFile json(options.json), waveform(request.options.vcd_file);
+  request.options.vcd_file = waveform.work();
   study::Progress progress(options.progress);
   study::RunOutput output = study::execute_in_worker(request, folder.work(), &progress);
   progress.clear();
   output.object.image.path = folder.path() + "/image.png";
+  request.options.vcd_file.clear();  // the waveform is the nominal run's
   if (options.interval) add_interval(request, options.jobs, progress, output.object);
 
   const std::string object = stats::to_json(output.object) + "\n";
@@ -72,6 +74,7 @@ int run(const study::Catalogue& catalogue, Options options) {
   // All that can fail for want of space comes before anything is put in place.
   json.write(object);
   folder.commit();
+  waveform.commit();
   if (!options.quiet) std::fputs(summary.c_str(), stdout);
   json.commit();
   return kGood;

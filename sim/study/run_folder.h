@@ -40,6 +40,9 @@ class OutputFile {
   OutputFile(const OutputFile&) = delete;
   OutputFile& operator=(const OutputFile&) = delete;
 
+  /// Where somebody else is to write the file before commit(); the path itself for a device, empty for none.
+  const std::string& work() const { return work_.empty() ? path_ : work_; }
+
   /// Writes the text; a regular file takes its place at commit() only, standard output gets it then.
   void write(const std::string& text);
   void commit();

@@ -141,7 +141,7 @@ void CycleEngine::change_video(std::uint32_t address, std::int64_t tick) {
   if (!sets_raster(address)) return;
   const video::Raster raster = video::raster_of(devices_.video, spec_.video, spec_.memory.fetch_bits);
   if (raster == raster_.raster) return;
-  timing_.settle(tick + 1);
+  timing_.catch_up(tick + 1);
   raster_before_ = raster_;
   raster_from_ = tick;
   raster_ = {raster, tick * tick_ps()};

@@ -43,7 +43,12 @@ class Timing {
     return granted;
   }
 
-  /// Serves what is granted before tick `end`.
+  /// Lets every event before tick `end` take its cards, now or as soon as they are free.
+  void catch_up(std::int64_t end) {
+    while (next_event_ < end) serve(video::kNever);
+  }
+
+  /// Serves what is granted before tick `end`, and counts no more: for the end of a run.
   void settle(std::int64_t end) {
     while (next_event_ < end) serve(end);
   }
