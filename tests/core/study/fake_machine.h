@@ -134,7 +134,7 @@ inline Catalogue catalogue() {
                 [](const scene::Scene& scene, const MachineType&, const config::ParameterSet&) {
                   return std::make_unique<FakeJob>(scene);
                 },
-                {"crash", "unbounded", "list"}};
+                {"crash", "unbounded", "list", "kill"}};
   return {{type, other}, {toy}, "/nowhere"};
 }
 
