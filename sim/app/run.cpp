@@ -7,6 +7,7 @@
 #include "sim/study/cache.h"
 #include "sim/study/interval.h"
 #include "sim/study/run_folder.h"
+#include "sim/study/timeline.h"
 #include "sim/study/worker.h"
 
 namespace dendro::app {
@@ -16,7 +17,7 @@ struct Options {
   study::RunArguments run;
   bool interval = false;
   std::string out, json, progress = "auto";
-  std::string vcd_units;
+  std::string vcd_units, timeline;
   bool quiet = false;
   int jobs = study::default_jobs();
 };
@@ -54,7 +55,9 @@ int run(const study::Catalogue& catalogue, Options options) {
   if (options.interval && request.level == Level::kFunction)
     throw UserError("--interval", 0, "", "there is no time at --level function");
   study::RunFolder folder(options.out.empty() ? "out/" + request.file.scene.name : options.out);
-  study::OutputFile json(options.json);
+  if (!options.timeline.empty() && request.level == Level::kFunction)
+    throw UserError("--timeline", 0, "", "there is no time at --level function");
+  study::OutputFile json(options.json), timeline(options.timeline);
   study::Progress progress(options.progress);
   study::RunOutput output = study::execute_in_worker(request, folder.work(), &progress);
   progress.clear();
@@ -69,6 +72,7 @@ int run(const study::Catalogue& catalogue, Options options) {
   folder.write("resolved.toml", study::resolved_scene(request, output, folder.path()));
   folder.commit();
   if (!options.quiet) std::fputs(summary.c_str(), stdout);
+  timeline.commit(study::timeline_json(output.object));
   json.commit(object);
   return kGood;
 }
@@ -87,6 +91,8 @@ void add_run(CLI::App& app, const study::Catalogue& catalogue, Action& action) {
       ->allow_extra_args(false);
   command->add_option("--seed", o->run.seed, "of everything random");
   command->add_flag("--interval", o->interval, "propagate the ranges of all assumptions");
+  command->add_flag("--cost", machine.cost, "also draw where the ticks went, pixel by pixel; --level cycle");
+  command->add_option("--timeline", o->timeline, "phases and marks as a Chrome trace, for ui.perfetto.dev");
   command->add_option("--out", o->out, "run directory; default: out/SCENE");
   command->add_option("--json", o->json, "also write the run object here; - is standard output");
   command->add_option("--progress", o->progress, "auto, on or off")

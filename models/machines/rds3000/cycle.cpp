@@ -52,6 +52,26 @@ struct CyclePort {
   }
 };
 
+/// The same with an account of which pixel is accessed when. A type of its own, so that runs without the account do
+/// not ask for it at every access.
+struct CostPort : CyclePort {
+  void start_read(std::uint32_t address, unsigned function) {
+    note(address, function, false);
+    CyclePort::start_read(address, function);
+  }
+  void start_write(std::uint32_t address, std::uint32_t data, unsigned function) {
+    note(address, function, true);
+    CyclePort::start_write(address, data, function);
+  }
+
+ private:
+  void note(std::uint32_t address, unsigned function, bool write) {
+    if ((address & kAddressMask) >= kImageEnd) return;
+    const auto pixel = engine.devices_.memory.touched(address & kAddressMask, function, write);
+    if (pixel) engine.cost_->access(*pixel, engine.now_);
+  }
+};
+
 CycleEngine::CycleEngine(const Spec& spec, const MachineOptions& options)
     : spec_(spec),
       options_(options),
@@ -63,6 +83,7 @@ CycleEngine::CycleEngine(const Spec& spec, const MachineOptions& options)
   raster_ = {video::raster_of(devices_.video, spec.video, spec.memory.fetch_bits), -spec.video.phase_ps};
   raster_before_ = raster_;
   timing_.set_fetches({raster_.raster, raster_.origin_ps, 0, tick_ps()});
+  if (options.cost) cost_ = std::make_unique<PixelCost>(std::size_t{dr64::kWidth} * dr64::kHeight);
 }
 
 std::int64_t CycleEngine::now_tick() const {
@@ -152,7 +173,15 @@ void CycleEngine::passed(const Decoded& word) {
 }
 
 void CycleEngine::stride(std::int64_t end) {
-  CyclePort port{*this};
+  if (cost_) {
+    stride_through(CostPort{{*this}}, end);
+  } else {
+    stride_through(CyclePort{*this}, end);
+  }
+}
+
+template <class Port>
+void CycleEngine::stride_through(Port port, std::int64_t end) {
   const Decoded* const words = decoded_.data() + bps32::page_base(processor_);
   const bool branches_cost = spec_.processor.taken_branch_ticks != 0;
   std::uint16_t pc = processor_.pc;
@@ -178,6 +207,7 @@ void CycleEngine::stride(std::int64_t end) {
 
 void CycleEngine::stopped(std::int64_t at) {
   processor_.running = false;
+  if (cost_) cost_->stop(at);
   if (at > run_from_) runs_.push_back({run_from_, at});
 }
 
@@ -246,6 +276,7 @@ void CycleEngine::command(bool run, bool reset) {
     processor_.running = true;
     holds_.start();
     now_ = run_from_ = tick + 1;
+    if (cost_) cost_->start(now_);
   }
 }
 

@@ -1,10 +1,12 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <vector>
 
 #include "models/machines/rds3000/devices.h"
 #include "models/machines/rds3000/engine.h"
+#include "models/machines/rds3000/pixel_cost.h"
 #include "models/parts/bps32/bps32_timing.h"
 #include "models/parts/dr64/dr64_timing.h"
 
@@ -31,15 +33,19 @@ class CycleEngine : public Engine {
   const MemoryCounters& memory_counters() const override { return timing_.counters(); }
   const dr64::Core& memory() const override { return devices_.memory; }
   const video::State& video() const override { return devices_.video; }
+  const PixelCost* cost() const override { return cost_.get(); }
 
  private:
   friend struct CyclePort;
+  friend struct CostPort;
 
   std::int64_t now_tick() const;
   void wait_until(std::int64_t tick);
 
   void run_until(std::int64_t end);
   void stride(std::int64_t end);
+  template <class Port>
+  void stride_through(Port port, std::int64_t end);
   bool hold(const bps32::Decoded& word, std::int64_t end);
   std::uint64_t& counter(bps32::Cause cause);
   void passed(const bps32::Decoded& word);
@@ -71,6 +77,7 @@ class CycleEngine : public Engine {
   std::int64_t run_from_ = 0;
   std::int64_t bus_free_ = 0;
   bps32::Holds holds_;
+  std::unique_ptr<PixelCost> cost_;  ///< only when it was asked for
 };
 
 }  // namespace dendro::rds3000
