@@ -45,6 +45,13 @@ struct MarkEvent {
   std::int64_t tick = 0;
 };
 
+/// Where the machine's time went in the picture: per pixel of Picture the processor's ticks from an access of that pixel
+/// to its next access of image memory, and its accesses. With `elsewhere` the ticks add up to machine_cycles().
+struct PixelCosts {
+  std::vector<float> ticks, visits;
+  std::uint64_t elsewhere = 0;  ///< ticks before a start's first access, and those of pixels that are not shown
+};
+
 struct MachineOptions {
   /// Words to log, by word index (page x 4096 + address): symbols of the program that begin with mark_ or phase_.
   std::map<std::uint32_t, std::string> marks;
@@ -54,6 +61,7 @@ struct MachineOptions {
   std::int64_t vcd_from = 0, vcd_to = INT64_MAX;  ///< window in ticks
   std::vector<std::string> vcd_units;             ///< empty: all
   std::map<std::uint32_t, std::string> symbols;   ///< labels by word index, for messages only
+  bool cost = false;                              ///< cycle only: keep account of ticks by pixel
   std::map<std::uint32_t, std::string> counted;   ///< `function` only: microwords whose executions are counted
   std::function<void(std::int64_t tick)> progress;  ///< called now and then with the simulated time; may be empty
   trace::Writer* recorder = nullptr;  ///< `cycle` only: gathers the records of one boundary
@@ -80,6 +88,8 @@ class Machine {
   virtual std::vector<std::string> elaborated() const = 0;
   virtual bool time_dependent() const = 0;           ///< the program read time, so `function` may differ
   virtual Picture picture() const = 0;               ///< after the last tick
+  /// With `MachineOptions::cost`, after the run; empty otherwise.
+  virtual PixelCosts costs() const { return {}; }
   /// A word of the machine as a debugger would see it: no time passes.
   virtual std::uint32_t peek(std::uint32_t address, unsigned function) const = 0;
 };

@@ -8,6 +8,7 @@
 #include "sim/study/cache.h"
 #include "sim/study/interval.h"
 #include "sim/study/run_folder.h"
+#include "sim/study/timeline.h"
 #include "sim/study/worker.h"
 
 namespace dendro::app {
@@ -17,7 +18,7 @@ struct Options {
   study::RunArguments run;
   bool interval = false;
   std::string out, json, progress = "auto";
-  std::string vcd_units;
+  std::string vcd_units, timeline;
   bool quiet = false;
   int jobs = study::default_jobs();
 };
@@ -56,7 +57,9 @@ int run(const study::Catalogue& catalogue, Options options) {
   if (options.interval && request.level == Level::kFunction)
     throw UserError("--interval", 0, "", "there is no time at --level function");
   study::RunFolder folder(options.out.empty() ? "out/" + request.file.scene.name : options.out);
-  study::OutputFile json(options.json), waveform(request.options.vcd_file);
+  if (!options.timeline.empty() && request.level == Level::kFunction)
+    throw UserError("--timeline", 0, "", "there is no time at --level function");
+  study::OutputFile json(options.json), waveform(request.options.vcd_file), timeline(options.timeline);
   request.options.vcd_file = waveform.work();
   study::Progress progress(options.progress);
   study::RunOutput output = study::execute_in_worker(request, folder.work(), &progress);
@@ -76,6 +79,7 @@ int run(const study::Catalogue& catalogue, Options options) {
   folder.commit();
   waveform.commit();
   if (!options.quiet) std::fputs(summary.c_str(), stdout);
+  timeline.commit(study::timeline_json(output.object));
   json.commit();
   return kGood;
 }
@@ -97,6 +101,9 @@ void add_run(CLI::App& app, const study::Catalogue& catalogue, Action& action) {
       ->allow_extra_args(false);
   command->add_option("--seed", o->run.seed, "of everything random")->check(whole_number(0));
   command->add_flag("--interval", o->interval, "propagate the ranges of all assumptions");
+  command->add_flag("--cost", machine.cost, "also draw where the ticks went, pixel by pixel; --level cycle");
+  command->add_option("--timeline", o->timeline, "phases and marks as a Chrome trace, for ui.perfetto.dev")
+      ->check(some_text());
   command->add_option("--out", o->out, "run directory; default: out/SCENE")->check(some_text());
   command->add_option("--json", o->json, "also write the run object here; - is standard output")
       ->check(some_text());

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
 
 #include "sim/scene/canvas.h"
@@ -177,6 +178,17 @@ void draw_bar(Canvas& canvas, double low, double high, const std::string& label)
   canvas.text_upwards(right + 12, (top + bottom + Canvas::text_width(text)) / 2, text, kInk);
 }
 
+/// A few pixels at the ends of rows take so much that all others would look the same beside them, so the scale ends
+/// where all but a hundredth of the pixels are that have anything.
+float full_scale(const std::vector<float>& values) {
+  std::vector<float> some;
+  std::copy_if(values.begin(), values.end(), std::back_inserter(some), [](float v) { return v > 0; });
+  if (some.empty()) return 0;
+  const auto at = some.begin() + static_cast<std::ptrdiff_t>(0.99 * static_cast<double>(some.size() - 1));
+  std::nth_element(some.begin(), at, some.end());
+  return *at;
+}
+
 }  // namespace
 
 std::vector<double> round_marks(double low, double high, int count) {
@@ -245,16 +257,17 @@ RgbImage draw(const HeatMap& map) {
 
 RgbImage draw_per_pixel(int width, int height, const std::vector<float>& values, const std::string& label) {
   constexpr int kRoom = 44;
-  const float largest = values.empty() ? 0 : std::max(*std::max_element(values.begin(), values.end()), 0.0f);
+  const float full = full_scale(values);
   Canvas canvas(width, height + kRoom);
   for (int y = 0; y < height; ++y)
     for (int x = 0; x < width; ++x) {
       const float v = values[static_cast<std::size_t>(y) * width + x];
-      canvas.set(x, y, false_colour(largest > 0 ? v / largest : 0));
+      canvas.set(x, y, false_colour(full > 0 ? v / full : 0));
     }
   for (int x = 0; x < width; ++x)
     canvas.fill(x, height + 4, x + 1, height + 18, false_colour(static_cast<double>(x) / std::max(width - 1, 1)));
-  const std::string end = short_number(largest);
+  const bool above = std::any_of(values.begin(), values.end(), [&](float v) { return v > full; });
+  const std::string end = short_number(full) + (above ? "+" : "");
   canvas.text(2, height + 24, "0", kInk);
   canvas.text(width - Canvas::text_width(end) - 2, height + 24, end, kInk);
   canvas.text((width - Canvas::text_width(label)) / 2, height + 24, label, kInk);

@@ -40,8 +40,8 @@ RgbImage draw(const LineChart& chart);
 /// Cells in false colours with a colour bar.
 RgbImage draw(const HeatMap& map);
 
-/// A picture of one value per pixel in false colours, zero to the largest, pixel for pixel, with a labelled colour bar
-/// below.
+/// A picture of one value per pixel in false colours, pixel for pixel, with a labelled colour bar below. The scale ends
+/// at the 99th percentile of the values above zero; a `+` behind its end says that there are larger ones.
 RgbImage draw_per_pixel(int width, int height, const std::vector<float>& values, const std::string& label);
 
 /// Up to about `count` round numbers (1, 2 or 5 times a power of ten) inside [low, high].

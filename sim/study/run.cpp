@@ -10,6 +10,7 @@
 #include "sim/base/check.h"
 #include "sim/base/error.h"
 #include "sim/base/sha256.h"
+#include "sim/scene/chart.h"
 #include "sim/scene/image_io.h"
 #include "sim/study/worker.h"
 
@@ -189,11 +190,24 @@ void add_counters(const Machine& machine, double seconds, stats::RunObject& obje
   object.host = host_info(machine, seconds);
 }
 
-void write_pictures(const Job& job, const MachineView& view, const Picture& picture,
+/// Where the ticks went, in false colours.
+void write_cost(const PixelCosts& costs, const Picture& picture, const std::string& folder) {
+  scene::write_png(folder + "/cost_ticks.png",
+                   scene::draw_per_pixel(picture.width, picture.height, costs.ticks, "ticks per pixel"));
+  scene::write_png(folder + "/cost_visits.png",
+                   scene::draw_per_pixel(picture.width, picture.height, costs.visits, "visits per pixel"));
+}
+
+void write_pictures(const Job& job, const MachineView& view, const Picture& picture, const PixelCosts& costs,
                     const std::string& folder) {
   scene::write_png(folder + "/image.png", {picture.width, picture.height, picture.rgb});
   std::vector<scene::FloatChannel> channels;
   for (Layer& layer : job.layers(view)) channels.emplace_back(layer.name, std::move(layer.values));
+  if (!costs.ticks.empty()) {
+    channels.emplace_back("cost.ticks", costs.ticks);
+    channels.emplace_back("cost.visits", costs.visits);
+    write_cost(costs, picture, folder);
+  }
   scene::write_exr(folder + "/image.exr", picture.width, picture.height, channels);
 }
 
@@ -209,7 +223,7 @@ void add_picture(const Machine& machine, const Job& job, const std::string& fold
                          error.wrong_pixels, error.covered_pixels, error.extra};
   output.object.image = {"", picture.width, picture.height,
                          scene::image_digest({picture.width, picture.height, picture.rgb})};
-  if (!folder.empty()) write_pictures(job, view, picture, folder);
+  if (!folder.empty()) write_pictures(job, view, picture, machine.costs(), folder);
   output.rgb = std::move(picture.rgb);
 }
 
@@ -259,6 +273,8 @@ RunRequest prepare_run(const Catalogue& catalogue, const RunArguments& arguments
   request.options = arguments.options;
   if (!request.options.vcd_file.empty() && request.level != Level::kClocked)
     throw UserError("--vcd", 0, "", "waveforms exist at --level clocked only");
+  if (request.options.cost && request.level != Level::kCycle)
+    throw UserError("--cost", 0, "", "ticks are counted by pixel at --level cycle only");
   check_inputs(file.inputs);
   return request;
 }
@@ -292,6 +308,8 @@ RunOutput execute(const RunRequest& request, const std::string& folder, Progress
   });
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   add_counters(*machine, seconds, output.object);
+  if (request.options.cost)
+    output.object.facts.emplace_back("cost.elsewhere_ticks", static_cast<double>(machine->costs().elsewhere));
   stats::check_sanity(output.object);
   if (request.with_picture) add_picture(*machine, *job, folder, output);
   return output;

@@ -70,6 +70,26 @@ struct RecordingPort : CyclePort {
   }
 };
 
+/// The same with an account of which pixel is accessed when. A type of its own, so that runs without the account do
+/// not ask for it at every access.
+struct CostPort : CyclePort {
+  void start_read(std::uint32_t address, unsigned function) {
+    note(address, function, false);
+    CyclePort::start_read(address, function);
+  }
+  void start_write(std::uint32_t address, std::uint32_t data, unsigned function) {
+    note(address, function, true);
+    CyclePort::start_write(address, data, function);
+  }
+
+ private:
+  void note(std::uint32_t address, unsigned function, bool write) {
+    if ((address & kAddressMask) >= kImageEnd) return;
+    const auto pixel = engine.devices_.memory.touched(address & kAddressMask, function, write);
+    if (pixel) engine.cost_->access(*pixel, engine.now_);
+  }
+};
+
 CycleEngine::CycleEngine(const Spec& spec, const MachineOptions& options)
     : spec_(spec),
       options_(options),
@@ -84,6 +104,7 @@ CycleEngine::CycleEngine(const Spec& spec, const MachineOptions& options)
   if (options.recorder)
     recorder_ = make_recorder(*options.recorder, {spec_, processor_, devices_, timing_, raster_});
   if (recorder_ && recorder_->from() == 0) recorder_->begin(0);
+  if (options.cost) cost_ = std::make_unique<PixelCost>(std::size_t{dr64::kWidth} * dr64::kHeight);
 }
 
 std::int64_t CycleEngine::now_tick() const {
@@ -178,14 +199,15 @@ void CycleEngine::passed(const Decoded& word) {
 
 void CycleEngine::stride(std::int64_t end) {
   if (recorder_)
-    stride_with<RecordingPort>(end);
+    stride_with(RecordingPort{{*this}}, end);
+  else if (cost_)
+    stride_with(CostPort{{*this}}, end);
   else
-    stride_with<CyclePort>(end);
+    stride_with(CyclePort{*this}, end);
 }
 
 template <class Port>
-void CycleEngine::stride_with(std::int64_t end) {
-  Port port{*this};
+void CycleEngine::stride_with(Port port, std::int64_t end) {
   const Decoded* const words = decoded_.data() + bps32::page_base(processor_);
   const bool branches_cost = spec_.processor.taken_branch_ticks != 0;
   std::uint16_t pc = processor_.pc;
@@ -212,6 +234,7 @@ void CycleEngine::stride_with(std::int64_t end) {
 
 void CycleEngine::stopped(std::int64_t at) {
   processor_.running = false;
+  if (cost_) cost_->stop(at);
   if (at > run_from_) runs_.push_back({run_from_, at});
 }
 
@@ -307,6 +330,7 @@ void CycleEngine::command(bool run, bool reset) {
     processor_.running = true;
     holds_.start();
     now_ = run_from_ = tick + 1;
+    if (cost_) cost_->start(now_);
   }
 }
 

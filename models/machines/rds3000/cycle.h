@@ -6,6 +6,7 @@
 
 #include "models/machines/rds3000/devices.h"
 #include "models/machines/rds3000/engine.h"
+#include "models/machines/rds3000/pixel_cost.h"
 #include "models/machines/rds3000/recorder.h"
 #include "models/parts/bps32/bps32_timing.h"
 #include "models/parts/dr64/dr64_timing.h"
@@ -33,10 +34,12 @@ class CycleEngine : public Engine {
   const MemoryCounters& memory_counters() const override { return timing_.counters(); }
   const dr64::Core& memory() const override { return devices_.memory; }
   const video::State& video() const override { return devices_.video; }
+  const PixelCost* cost() const override { return cost_.get(); }
 
  private:
   friend struct CyclePort;
   friend struct RecordingPort;
+  friend struct CostPort;
 
   std::int64_t now_tick() const;
   void wait_until(std::int64_t tick);
@@ -44,7 +47,7 @@ class CycleEngine : public Engine {
   void run_until(std::int64_t end);
   void stride(std::int64_t end);
   template <class Port>
-  void stride_with(std::int64_t end);
+  void stride_with(Port port, std::int64_t end);
   void run_recorded(std::int64_t end);
   void reach(std::int64_t tick);
   bool hold(const bps32::Decoded& word, std::int64_t end);
@@ -79,6 +82,7 @@ class CycleEngine : public Engine {
   std::int64_t bus_free_ = 0;
   bps32::Holds holds_;
   std::unique_ptr<Recorder> recorder_;  ///< or nothing
+  std::unique_ptr<PixelCost> cost_;  ///< only when it was asked for
 };
 
 }  // namespace dendro::rds3000

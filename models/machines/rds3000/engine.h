@@ -13,6 +13,8 @@
 
 namespace dendro::rds3000 {
 
+class PixelCost;
+
 /// Ticks [from, to) in which the processor ran.
 struct RunInterval {
   std::int64_t from = 0, to = 0;
@@ -31,6 +33,8 @@ class Engine : public ik11b::Target {
   virtual const MemoryCounters& memory_counters() const = 0;
   virtual const dr64::Core& memory() const = 0;
   virtual const video::State& video() const = 0;
+  /// nullptr unless it was asked for, and at levels that keep none.
+  virtual const PixelCost* cost() const { return nullptr; }
 
   const std::vector<RunInterval>& runs() const { return runs_; }
   const std::vector<MarkEvent>& marks() const { return marks_; }

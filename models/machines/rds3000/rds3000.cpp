@@ -7,6 +7,7 @@
 #include "models/machines/rds3000/cycle.h"
 #include "models/machines/rds3000/function.h"
 #include "models/machines/rds3000/host_recorder.h"
+#include "models/machines/rds3000/pixel_cost.h"
 #include "models/machines/rds3000/timeline.h"
 
 namespace dendro::rds3000 {
@@ -101,6 +102,7 @@ class TimedMachine : public Machine {
   }
   bool time_dependent() const override { return engine_->time_dependent(); }
   Picture picture() const override { return picture_of(engine_->video(), engine_->memory()); }
+  PixelCosts costs() const override;
   std::uint32_t peek(std::uint32_t address, unsigned function) const override {
     return peek_at(engine_->processor(), engine_->video(), engine_->memory(), address, function);
   }
@@ -139,6 +141,23 @@ std::vector<UnitStats> TimedMachine::units() const {
       {"rds3000.host",
        {{"cycles", total}, {"busy", host_busy}, {"idle", total - host_busy}, {"dma_words", shell_->dma_words()}}}};
   return units;
+}
+
+PixelCosts TimedMachine::costs() const {
+  PixelCosts costs;
+  const PixelCost* account = engine_->cost();
+  if (account == nullptr) return costs;
+  costs.elsewhere = account->elsewhere();
+  const std::vector<std::uint32_t> shown = video::shown_pixels(engine_->video());
+  std::vector<bool> seen(account->ticks().size(), false);
+  for (const std::uint32_t pixel : shown) {
+    costs.ticks.push_back(static_cast<float>(account->ticks()[pixel]));
+    costs.visits.push_back(static_cast<float>(account->visits()[pixel]));
+    seen[pixel] = true;
+  }
+  for (std::size_t pixel = 0; pixel < seen.size(); ++pixel)
+    if (!seen[pixel]) costs.elsewhere += account->ticks()[pixel];
+  return costs;
 }
 
 std::unique_ptr<Machine> make(const config::ParameterSet& parameters, Level level, const MachineOptions& options) {

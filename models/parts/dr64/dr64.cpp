@@ -78,6 +78,16 @@ Work Core::probe(std::uint32_t address, unsigned function, bool write) const {
   return work;
 }
 
+std::optional<std::size_t> Core::touched(std::uint32_t address, unsigned function, bool write) const {
+  if (probe(address, function, write).cards == 0) return std::nullopt;
+  const unsigned kind = function & 3;
+  if (kind == bps32::kFnWord) return word_place(address).first;
+  std::size_t index = 0;
+  unsigned bit = 0;
+  pixel_index(address, kind == bps32::kFnHires, index, bit);
+  return index % kBankPixels;
+}
+
 std::uint32_t Core::hires(unsigned x, unsigned y) const {
   return hires_of(state_.pixels[std::size_t{y / 2} * kWidth + x / 4 + 256 * (y & 1)], x & 3);
 }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "models/parts/dr64/dr64_spec.h"
@@ -29,6 +30,10 @@ class Core {
   Work probe(std::uint32_t address, unsigned function, bool write) const;
   std::uint32_t read(std::uint32_t address, unsigned function) const;
   void write(std::uint32_t address, std::uint32_t data, unsigned function);
+
+  /// Lores pixel that an access touches, y x 512 + x within its bank (of a word access the first of eight); none when
+  /// nothing answers or a mask is loaded.
+  std::optional<std::size_t> touched(std::uint32_t address, unsigned function, bool write) const;
 
   /// Lores pixel as the display sees it: x, y in 0..511, bank 0.
   std::uint32_t lores(unsigned x, unsigned y) const { return state_.pixels[y * kWidth + x]; }

@@ -36,6 +36,33 @@ int window_y(const State& state) {
   return y >= 2048 ? y - 4096 : y;
 }
 
+/// The part of the frame buffer that the monitor shows.
+class Window {
+ public:
+  explicit Window(const State& state)
+      : control_(control_of(state)), zoom_x_(low(state.fbc[kZoom]) + 1), zoom_y_(high(state.fbc[kZoom]) + 1) {
+    width = static_cast<int>(low(state.fbc[kSize])) + 1;
+    height = (static_cast<int>(high(state.fbc[kSize])) + 1) / (control_.repeat_field ? 2 : 1);
+    x0_ = low(state.fbc[kWindow]) / (control_.hires ? 1 : 4);
+    y0_ = window_y(state) - nominal_window_y(control_, high(state.fbc[kLocation])) / static_cast<int>(zoom_y_);
+  }
+
+  /// Of the pixel at a place of the monitor.
+  unsigned x(int px) const { return (x0_ + static_cast<unsigned>(px) / zoom_x_) % side(); }
+  unsigned y(int py) const { return static_cast<unsigned>(y0_ + py / static_cast<int>(zoom_y_)) % side(); }
+  const Control& control() const { return control_; }
+
+  int width, height;
+
+ private:
+  unsigned side() const { return control_.hires ? 1024 : 512; }
+
+  Control control_;
+  unsigned zoom_x_, zoom_y_;
+  unsigned x0_ = 0;
+  int y0_ = 0;
+};
+
 std::uint32_t through_crossbar(const State& state, std::uint32_t pixel) {
   std::uint32_t out = 0;
   for (unsigned line = 0; line < 32; ++line) {
@@ -92,20 +119,16 @@ Raster raster_of(const State& state, const Spec& spec, int fetch_bits) {
 }
 
 Frame monitor(const State& state, const dr64::Core& memory) {
-  const Control control = control_of(state);
-  const unsigned zoom_x = low(state.fbc[kZoom]) + 1, zoom_y = high(state.fbc[kZoom]) + 1;
-  const unsigned side = control.hires ? 1024 : 512;
+  const Window window(state);
+  const Control& control = window.control();
   Frame frame;
-  frame.width = static_cast<int>(low(state.fbc[kSize])) + 1;
-  frame.height = (static_cast<int>(high(state.fbc[kSize])) + 1) / (control.repeat_field ? 2 : 1);
-  const unsigned x0 = low(state.fbc[kWindow]) / (control.hires ? 1 : 4);
-  const int y0 = window_y(state) -
-                 nominal_window_y(control, high(state.fbc[kLocation])) / static_cast<int>(zoom_y);
+  frame.width = window.width;
+  frame.height = window.height;
   frame.rgb.reserve(std::size_t{3} * frame.width * frame.height);
   for (int py = 0; py < frame.height; ++py) {
-    const unsigned y = static_cast<unsigned>(y0 + py / static_cast<int>(zoom_y)) % side;
+    const unsigned y = window.y(py);
     for (int px = 0; px < frame.width; ++px) {
-      const unsigned x = (x0 + static_cast<unsigned>(px) / zoom_x) % side;
+      const unsigned x = window.x(px);
       const std::uint32_t lines =
           through_crossbar(state, control.hires ? memory.hires(x, y) : memory.lores(x, y));
       for (unsigned channel = 0; channel < 3; ++channel) {
@@ -116,6 +139,21 @@ Frame monitor(const State& state, const dr64::Core& memory) {
     }
   }
   return frame;
+}
+
+std::vector<std::uint32_t> shown_pixels(const State& state) {
+  const Window window(state);
+  const bool hires = window.control().hires;
+  std::vector<std::uint32_t> shown;
+  shown.reserve(static_cast<std::size_t>(window.width) * window.height);
+  for (int py = 0; py < window.height; ++py) {
+    const unsigned y = window.y(py);
+    for (int px = 0; px < window.width; ++px) {
+      const unsigned x = window.x(px);
+      shown.push_back(hires ? y / 2 * dr64::kWidth + x / 4 + 256 * (y & 1) : y * dr64::kWidth + x);
+    }
+  }
+  return shown;
 }
 
 }  // namespace dendro::video

@@ -56,4 +56,7 @@ struct Frame {
 
 Frame monitor(const State& state, const dr64::Core& memory);
 
+/// Which lores pixel of bank 0 (y x 512 + x) the monitor shows, or shows a part of, at each place of its Frame.
+std::vector<std::uint32_t> shown_pixels(const State& state);
+
 }  // namespace dendro::video
