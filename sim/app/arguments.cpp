@@ -50,6 +50,16 @@ CLI::Validator some_text() {
       [](std::string& text) -> std::string { return text.empty() ? "must not be empty" : ""; }, "");
 }
 
+void add_waveform(CLI::App& command, MachineOptions& machine) {
+  command.add_option("--vcd", machine.vcd_file, "waveform file, at --level clocked")->check(some_text());
+  command.add_option("--vcd-from", machine.vcd_from, "first tick of the waveform")
+      ->check(whole_number(0))
+      ->needs("--vcd");
+  command.add_option("--vcd-to", machine.vcd_to, "first tick that the waveform no longer shows")
+      ->check(whole_number(0))
+      ->needs("--vcd");
+}
+
 void check_window(const MachineOptions& options) {
   if (options.vcd_from >= options.vcd_to)
     throw UserError("--vcd-to", 0, "",

@@ -18,6 +18,9 @@ CLI::Validator finite_number(double lowest, bool above);
 /// Any text but the empty one.
 CLI::Validator some_text();
 
+/// The options --vcd, --vcd-from and --vcd-to.
+void add_waveform(CLI::App& command, MachineOptions& machine);
+
 /// Throws UserError for a waveform window that shows no tick.
 void check_window(const MachineOptions& options);
 

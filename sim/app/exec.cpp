@@ -87,13 +87,7 @@ void add_exec(CLI::App& app, const study::Catalogue& catalogue, Action& action) 
   command->add_option("--progress", o->progress, "auto, on or off")
       ->check(CLI::IsMember({"auto", "on", "off"}));
   command->add_flag("--quiet", o->quiet, "print no summary");
-  command->add_option("--vcd", machine.vcd_file, "waveform file, at --level clocked")->check(some_text());
-  command->add_option("--vcd-from", machine.vcd_from, "first tick of the waveform")
-      ->check(whole_number(0))
-      ->needs("--vcd");
-  command->add_option("--vcd-to", machine.vcd_to, "first tick that the waveform no longer shows")
-      ->check(whole_number(0))
-      ->needs("--vcd");
+  add_waveform(*command, machine);
   command->callback(
       [&catalogue, &action, o] { action = [&catalogue, o] { return execute(catalogue, *o); }; });
 }

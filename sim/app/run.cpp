@@ -114,13 +114,7 @@ void add_run(CLI::App& app, const study::Catalogue& catalogue, Action& action) {
   command->add_option("--limit", machine.tick_limit, "ticks the processor may run in one start")
       ->check(whole_number(1));
   command->add_flag("--all-units", machine.all_units, "elaborate units that the scene does not use, too");
-  command->add_option("--vcd", machine.vcd_file, "waveform file, at --level clocked")->check(some_text());
-  command->add_option("--vcd-from", machine.vcd_from, "first tick of the waveform")
-      ->check(whole_number(0))
-      ->needs("--vcd");
-  command->add_option("--vcd-to", machine.vcd_to, "first tick that the waveform no longer shows")
-      ->check(whole_number(0))
-      ->needs("--vcd");
+  add_waveform(*command, machine);
   command->add_option("--vcd-units", o->vcd_units, "units in the waveform, separated by commas")
       ->check(some_text())
       ->needs("--vcd");

@@ -11,6 +11,13 @@
 #include "sim/base/sha256.h"
 
 namespace dendro::study {
+std::int64_t integer_of(const config::ParameterSet& parameters, const std::string& key) {
+  const config::Parameter* p = parameters.find(key);
+  if (p == nullptr || !std::holds_alternative<std::int64_t>(p->value))
+    throw UserError("", 0, key, "this parameter of the machine is missing or no integer");
+  return std::get<std::int64_t>(p->value);
+}
+
 namespace {
 
 struct Source {
@@ -30,13 +37,6 @@ tools::Assembly assemble_source(const Source& source, const tools::AssembleOptio
   const std::string* text = base::embedded_file(source.path);
   DENDRO_CHECK(text != nullptr, "{}", source.path);
   return tools::assemble(*text, source.path, options);
-}
-
-std::int64_t integer_of(const config::ParameterSet& parameters, const std::string& key) {
-  const config::Parameter* p = parameters.find(key);
-  if (p == nullptr || !std::holds_alternative<std::int64_t>(p->value))
-    throw UserError("", 0, key, "this parameter of the machine is missing or no integer");
-  return std::get<std::int64_t>(p->value);
 }
 
 std::string text_of(const config::ParameterSet& parameters, const std::string& key) {

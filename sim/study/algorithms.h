@@ -29,6 +29,9 @@ struct Algorithm {
 /// The one list of algorithms.
 const std::vector<Algorithm>& algorithms();
 
+/// An integer parameter of a machine. Throws UserError naming the key when it is missing or of another type.
+std::int64_t integer_of(const config::ParameterSet& parameters, const std::string& key);
+
 /// The half-space program as it is assembled for a machine with these parameters. Throws UserError.
 tools::Ucode half_space_program(const config::ParameterSet& parameters);
 

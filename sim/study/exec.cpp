@@ -23,13 +23,6 @@ bool ends_with(const std::string& text, const std::string& end) {
   return text.size() >= end.size() && text.compare(text.size() - end.size(), end.size(), end) == 0;
 }
 
-std::int64_t integer_of(const config::ParameterSet& parameters, const std::string& key) {
-  const config::Parameter* p = parameters.find(key);
-  if (p == nullptr || !std::holds_alternative<std::int64_t>(p->value))
-    throw UserError("", 0, key, "this parameter of the machine is missing or no integer");
-  return std::get<std::int64_t>(p->value);
-}
-
 /// A source is assembled for the machine at hand; a finished program must suit it.
 tools::Ucode load_ucode(const ExecArguments& arguments, const config::ParameterSet& parameters) {
   const std::string& path = arguments.program;
