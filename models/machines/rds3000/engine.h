@@ -8,9 +8,9 @@
 #include <vector>
 
 #include "models/machines/machine.h"
-#include "models/machines/rds3000/activity.h"
 #include "models/machines/rds3000/rds3000_spec.h"
 #include "models/machines/rds3000/rds3000_state.h"
+#include "models/machines/rds3000/activity.h"
 #include "models/parts/ik11b/ik11b_shell.h"
 
 namespace dendro::rds3000 {
