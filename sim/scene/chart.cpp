@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <iterator>
 #include <limits>
@@ -194,16 +195,41 @@ void draw_series(Canvas& canvas, const ChartSeries& series, const Scale& x, cons
   }
 }
 
-void draw_legend(Canvas& canvas, const std::vector<ChartSeries>& series) {
+/// How much of the curves lies in [left, right) x [top, bottom) of the picture.
+int covered(const std::vector<ChartSeries>& series, const Scale& x, const Scale& y, const std::array<int, 4>& box) {
+  constexpr int kSteps = 16;  // between two points of a curve
+  int inside = 0;
+  for (const ChartSeries& s : series)
+    for (std::size_t i = 0; i < s.x.size(); ++i)
+      for (int step = 0; step < kSteps; ++step) {
+        const std::size_t next = s.labels.empty() ? std::min(i + 1, s.x.size() - 1) : i;
+        const double t = static_cast<double>(step) / kSteps;
+        const double px = x.at(s.x[i]) * (1 - t) + x.at(s.x[next]) * t;
+        const double py = y.at(s.y[i]) * (1 - t) + y.at(s.y[next]) * t;
+        inside += px >= box[0] && px < box[1] && py >= box[2] && py < box[3];
+      }
+  return inside;
+}
+
+/// In the corner where it covers least.
+void draw_legend(Canvas& canvas, const std::vector<ChartSeries>& series, const Scale& x, const Scale& y) {
   if (series.size() < 2) return;
   std::size_t longest = 0;
   for (const ChartSeries& s : series) longest = std::max(longest, s.name.size());
-  const int left = kWidth - kRight - 60 - static_cast<int>(longest) * 12, top = kTop + 10;
-  canvas.fill(left, top, kWidth - kRight - 8, top + 8 + 22 * static_cast<int>(series.size()), {255, 255, 255});
+  const int width = 52 + static_cast<int>(longest) * 12, height = 8 + 22 * static_cast<int>(series.size());
+  std::array<int, 4> best{};
+  int least = std::numeric_limits<int>::max();
+  for (const int top : {kTop + 10, kHeight - kBottom - 10 - height})
+    for (const int left : {kWidth - kRight - 8 - width, kLeft + 8}) {
+      const std::array<int, 4> box{left, left + width, top, top + height};
+      const int covers = covered(series, x, y, box);
+      if (covers < least) least = covers, best = box;
+    }
+  canvas.fill(best[0], best[2], best[1], best[3], {255, 255, 255});
   for (std::size_t i = 0; i < series.size(); ++i) {
-    const int y = top + 8 + 22 * static_cast<int>(i);
-    canvas.fill(left + 6, y + 5, left + 34, y + 9, kCurves[i % std::size(kCurves)]);
-    canvas.text(left + 42, y, series[i].name, kInk);
+    const int row = best[2] + 8 + 22 * static_cast<int>(i);
+    canvas.fill(best[0] + 6, row + 5, best[0] + 34, row + 9, kCurves[i % std::size(kCurves)]);
+    canvas.text(best[0] + 42, row, series[i].name, kInk);
   }
 }
 
@@ -281,7 +307,7 @@ RgbImage draw(const LineChart& chart) {
       draw_series(canvas, chart.series[i], x, y, kCurves[i % std::size(kCurves)]);
     else
       draw_points(canvas, chart.series[i], x, y, i, labels);
-  draw_legend(canvas, chart.series);
+  draw_legend(canvas, chart.series, x, y);
   return canvas.image();
 }
 

@@ -117,6 +117,22 @@ TEST(LineChart, ZeroHasAPlaceLeftOfALogarithmicScaleAndPointsWithLabelsStandAlon
   EXPECT_EQ(24u, columns.size()) << "two squares of 12 pixels, nothing between them";
 }
 
+TEST(LineChart, TheLegendStandsWhereNoCurveIs) {
+  const Colour blue = {31, 119, 180};
+  const std::vector<double> along = {0, 1, 2, 3, 4, 5, 6, 7, 8};
+  for (const auto& curves : {std::pair(std::vector<double>(9, 10), std::vector<double>(9, 9)),  // right of the middle
+                             std::pair(along, std::vector<double>(9, 0))}) {
+    const LineChart two{"t", {"x", false, {}}, {"y", false, {}}, {{"a", along, curves.first}, {"b", along, curves.second}}};
+    const RgbImage image = draw(two);
+    std::map<int, int> columns;
+    for (int x = 0; x < image.width; ++x)
+      for (int y = 0; y < image.height; ++y) columns[x] += at(image, x, y) == blue;
+    int seen = 0;
+    for (const auto& [x, n] : columns) seen += n > 0;
+    EXPECT_LT(700, seen) << "the first curve from its beginning to its end";
+  }
+}
+
 TEST(LineChart, LabelsOfNeighboursDoNotCoverEachOther) {
   const auto ink_rows = [](double second) {
     const RgbImage image = draw(LineChart{
