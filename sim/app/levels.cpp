@@ -24,7 +24,7 @@ int compare(const study::Catalogue& catalogue, const Options& options) {
   study::Progress progress(options.progress);
   const auto rows = study::compare_levels(catalogue, options.run, options.budget, &progress);
   const std::string object = study::levels_json(rows), text = study::levels_text(rows);
-  scene::write_png(folder.work() + "/levels.png", study::levels_picture(scene, rows));
+  folder.writing([&] { scene::write_png(folder.work() + "/levels.png", study::levels_picture(scene, rows)); });
   folder.write("levels.csv", study::levels_csv(rows));
   folder.write("levels.json", object);
   folder.write("summary.txt", text);

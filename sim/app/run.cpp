@@ -63,7 +63,8 @@ int run(const study::Catalogue& catalogue, Options options) {
   request.options.vcd_file = waveform.work();
   if (!options.timeline.empty()) request.options.activity = study::kTimelineWindows;
   study::Progress progress(options.progress);
-  study::RunOutput output = study::execute_in_worker(request, folder.work(), &progress);
+  study::RunOutput output =
+      folder.writing([&] { return study::execute_in_worker(request, folder.work(), &progress); });
   progress.clear();
   output.object.image.path = folder.path() + "/image.png";
   request.options.vcd_file.clear();  // waveform and timeline are the nominal run's
@@ -77,13 +78,14 @@ int run(const study::Catalogue& catalogue, Options options) {
   folder.write("summary.txt", summary);
   folder.write("resolved.toml", study::resolved_scene(request, output, folder.path()));
   if (!options.timeline.empty())
-    scene::write_png(folder.work() + "/timeline.png", study::timeline_picture(output));
+    folder.writing([&] { scene::write_png(folder.work() + "/timeline.png", study::timeline_picture(output)); });
   // All that can fail for want of space comes before anything is put in place.
   json.write(object);
+  timeline.write(options.timeline.empty() ? "" : study::timeline_json(output));
   folder.commit();
   waveform.commit();
   if (!options.quiet) std::fputs(summary.c_str(), stdout);
-  timeline.commit(study::timeline_json(output));
+  timeline.commit();
   json.commit();
   return kGood;
 }
