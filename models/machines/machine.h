@@ -52,6 +52,12 @@ struct PixelCosts {
   std::uint64_t elsewhere = 0;  ///< ticks before a start's first access, and those of pixels that are not shown
 };
 
+/// The counters of every unit before a tick of the run: what two samples differ by happened between them.
+struct ActivitySample {
+  std::int64_t tick = 0;
+  std::vector<UnitStats> units;
+};
+
 struct MachineOptions {
   /// Words to log, by word index (page x 4096 + address): symbols of the program that begin with mark_ or phase_.
   std::map<std::uint32_t, std::string> marks;
@@ -62,6 +68,7 @@ struct MachineOptions {
   std::vector<std::string> vcd_units;             ///< empty: all
   std::map<std::uint32_t, std::string> symbols;   ///< labels by word index, for messages only
   bool cost = false;                              ///< cycle only: keep account of ticks by pixel
+  std::size_t activity = 0;                       ///< most samples of activity(), an even number; 0: none are taken
   std::map<std::uint32_t, std::string> counted;   ///< `function` only: microwords whose executions are counted
   std::function<void(std::int64_t tick)> progress;  ///< called now and then with the simulated time; may be empty
   trace::Writer* recorder = nullptr;  ///< `cycle` only: gathers the records of one boundary
@@ -90,6 +97,8 @@ class Machine {
   virtual Picture picture() const = 0;               ///< after the last tick
   /// With `MachineOptions::cost`, after the run; empty otherwise.
   virtual PixelCosts costs() const { return {}; }
+  /// With `MachineOptions::activity`, after the run: samples at equal distances and one at its end; empty otherwise.
+  virtual std::vector<ActivitySample> activity() const { return {}; }
   /// A word of the machine as a debugger would see it: no time passes.
   virtual std::uint32_t peek(std::uint32_t address, unsigned function) const = 0;
 };

@@ -14,15 +14,24 @@ namespace {
 struct Options {
   study::RunArguments run;
   double budget = 0;
-  std::string json, progress = "auto";
+  std::string out, json, progress = "auto";
 };
 
 int compare(const study::Catalogue& catalogue, const Options& options) {
+  const std::string scene = study::prepare_run(catalogue, options.run).file.scene.name;
+  study::RunFolder folder(options.out.empty() ? "out/levels/" + scene : options.out);
   study::OutputFile json(options.json);
   study::Progress progress(options.progress);
   const auto rows = study::compare_levels(catalogue, options.run, options.budget, &progress);
-  if (options.json != "-") std::fputs(study::levels_text(rows).c_str(), stdout);
-  json.commit(study::levels_json(rows));
+  const std::string object = study::levels_json(rows), text = study::levels_text(rows);
+  folder.writing([&] { scene::write_png(folder.work() + "/levels.png", study::levels_picture(scene, rows)); });
+  folder.write("levels.csv", study::levels_csv(rows));
+  folder.write("levels.json", object);
+  folder.write("summary.txt", text);
+  json.write(object);
+  folder.commit();
+  if (options.json != "-") std::printf("%sfiles in %s\n", text.c_str(), folder.path().c_str());
+  json.commit();
   return kGood;
 }
 
@@ -37,6 +46,8 @@ void add_levels(CLI::App& app, const study::Catalogue& catalogue, Action& action
   command->add_option("--set", o->run.settings, "key=value of the scene")->allow_extra_args(false);
   command->add_option("--budget", o->budget, "host seconds; levels beyond it are skipped")
       ->check(finite_number(0, true));
+  command->add_option("--out", o->out, "folder of the table and its picture; default: out/levels/SCENE")
+      ->check(some_text());
   command->add_option("--json", o->json, "also write the rows here; - is standard output")
       ->check(some_text());
   command->add_option("--progress", o->progress, "auto, on or off")

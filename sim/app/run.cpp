@@ -61,11 +61,14 @@ int run(const study::Catalogue& catalogue, Options options) {
     throw UserError("--timeline", 0, "", "there is no time at --level function");
   study::OutputFile json(options.json), waveform(request.options.vcd_file), timeline(options.timeline);
   request.options.vcd_file = waveform.work();
+  if (!options.timeline.empty()) request.options.activity = study::kTimelineWindows;
   study::Progress progress(options.progress);
-  study::RunOutput output = study::execute_in_worker(request, folder.work(), &progress);
+  study::RunOutput output =
+      folder.writing([&] { return study::execute_in_worker(request, folder.work(), &progress); });
   progress.clear();
   output.object.image.path = folder.path() + "/image.png";
-  request.options.vcd_file.clear();  // the waveform is the nominal run's
+  request.options.vcd_file.clear();  // waveform and timeline are the nominal run's
+  request.options.activity = 0;
   if (options.interval) add_interval(request, options.jobs, progress, output.object);
 
   const std::string object = stats::to_json(output.object) + "\n";
@@ -74,12 +77,15 @@ int run(const study::Catalogue& catalogue, Options options) {
   folder.write("stats.csv", stats::to_csv(output.object));
   folder.write("summary.txt", summary);
   folder.write("resolved.toml", study::resolved_scene(request, output, folder.path()));
+  if (!options.timeline.empty())
+    folder.writing([&] { scene::write_png(folder.work() + "/timeline.png", study::timeline_picture(output)); });
   // All that can fail for want of space comes before anything is put in place.
   json.write(object);
+  timeline.write(options.timeline.empty() ? "" : study::timeline_json(output));
   folder.commit();
   waveform.commit();
   if (!options.quiet) std::fputs(summary.c_str(), stdout);
-  timeline.commit(study::timeline_json(output.object));
+  timeline.commit();
   json.commit();
   return kGood;
 }
@@ -102,7 +108,7 @@ void add_run(CLI::App& app, const study::Catalogue& catalogue, Action& action) {
   command->add_option("--seed", o->run.seed, "of everything random")->check(whole_number(0));
   command->add_flag("--interval", o->interval, "propagate the ranges of all assumptions");
   command->add_flag("--cost", machine.cost, "also draw where the ticks went, pixel by pixel; --level cycle");
-  command->add_option("--timeline", o->timeline, "phases and marks as a Chrome trace, for ui.perfetto.dev")
+  command->add_option("--timeline", o->timeline, "phases and activity of the units as a Chrome trace, for ui.perfetto.dev")
       ->check(some_text());
   command->add_option("--out", o->out, "run directory; default: out/SCENE")->check(some_text());
   command->add_option("--json", o->json, "also write the run object here; - is standard output")

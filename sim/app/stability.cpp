@@ -27,7 +27,7 @@ void write_folder(study::RunFolder& folder, const std::vector<stability::Result>
     for (const stability::Curve& curve : result.curves) {
       folder.write(curve.name + ".csv", study::curve_csv(curve));
       if (!curve.y_label.empty())
-        study::write_curve_picture(curve, folder.work() + "/" + curve.name + ".png");
+        folder.writing([&] { study::write_curve_picture(curve, folder.work() + "/" + curve.name + ".png"); });
     }
   folder.commit();
 }

@@ -3,9 +3,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <iterator>
 #include <limits>
+#include <map>
 
 #include "sim/scene/canvas.h"
 
@@ -15,6 +17,7 @@ namespace {
 constexpr int kWidth = 900, kHeight = 560;
 constexpr int kLeft = 120, kRight = 30, kTop = 50, kBottom = 80;
 constexpr int kBarRoom = 150;  // right of a heat map
+constexpr int kZeroRoom = 130;  // left of a logarithmic scale that has a place for 0
 constexpr Colour kInk = {40, 40, 40}, kGrid = {225, 225, 225}, kNothing = {200, 200, 200};
 constexpr Colour kCurves[] = {{31, 119, 180}, {214, 39, 40},  {44, 160, 44},
                               {148, 103, 189}, {255, 127, 14}, {23, 190, 207}};
@@ -24,11 +27,12 @@ struct Scale {
   double low = 0, high = 1;
   bool logarithmic = false;
   double from = 0, to = 1;
+  double zero_at = std::numeric_limits<double>::quiet_NaN();  ///< where 0 stands on a logarithmic scale
 
   double share(double v) const {
     return logarithmic ? std::log(v / low) / std::log(high / low) : (v - low) / (high - low);
   }
-  double at(double v) const { return from + share(v) * (to - from); }
+  double at(double v) const { return logarithmic && v == 0 ? zero_at : from + share(v) * (to - from); }
 };
 
 std::string cut(const std::string& text, int pixels, int scale) {
@@ -44,8 +48,9 @@ Scale scale_of(const std::vector<double>& values, const ChartAxis& axis, bool fr
     return scale;
   }
   double low = std::numeric_limits<double>::infinity(), high = -low;
+  if (axis.low < axis.high) low = axis.low, high = axis.high;
   for (const double v : values) {
-    if (!std::isfinite(v)) continue;
+    if (!std::isfinite(v) || (v == 0 && !axis.zero.empty())) continue;
     low = std::min(low, v);
     high = std::max(high, v);
   }
@@ -100,6 +105,17 @@ void draw_x_axis(Canvas& canvas, const Scale& scale, const ChartAxis& axis, int 
   canvas.text(middle - Canvas::text_width(axis.label) / 2, bottom + 42, axis.label, kInk);
 }
 
+/// Keeps the left end of the axis for values of 0.
+void draw_zero(Canvas& canvas, Scale& x, const ChartAxis& axis) {
+  x.zero_at = x.from + kZeroRoom / 3.0;
+  x.from += kZeroRoom;
+  const int bottom = kHeight - kBottom, at = static_cast<int>(x.zero_at), end = static_cast<int>(x.from);
+  canvas.line(at, kTop, at, bottom, kGrid);
+  for (int y = kTop; y < bottom; y += 10) canvas.line(end, y, end, std::min(y + 5, bottom), kInk);
+  const std::string text = cut(axis.zero, kZeroRoom, 2);
+  canvas.text(at - Canvas::text_width(text) / 2, bottom + 10, text, kInk);
+}
+
 void draw_y_axis(Canvas& canvas, const Scale& scale, const ChartAxis& axis, int left, int right, bool grid) {
   for (const double mark : marks_of(scale, axis, 7)) {
     const int y = static_cast<int>(std::lround(scale.at(mark)));
@@ -124,6 +140,41 @@ void draw_title(Canvas& canvas, const std::string& title) {
   canvas.text((kWidth - Canvas::text_width(text)) / 2, 18, text, kInk);
 }
 
+/// The row nearest to `wanted` in which a label covers no other one.
+int free_row(std::map<int, std::string>& labels, int wanted, const std::string& text) {
+  constexpr int kApart = 18;
+  const auto covers = [&](int row) {
+    for (auto at = labels.lower_bound(row - kApart + 1); at != labels.end() && at->first < row + kApart; ++at)
+      if (at->second != text) return true;
+    return false;
+  };
+  int away = 0;
+  while (covers(wanted + away)) away = away > 0 ? -away : 1 - away;
+  labels[wanted + away] = text;
+  return wanted + away;
+}
+
+/// Separate points; those of later series are drawn around those of earlier ones, so that equal ones are all seen.
+/// `labels` gathers where labels stand: one that would cover another moves away, the same at the same place stays.
+void draw_points(Canvas& canvas, const ChartSeries& series, const Scale& x, const Scale& y, std::size_t index,
+                 std::map<int, std::string>& labels) {
+  const Colour& colour = kCurves[index % std::size(kCurves)];
+  for (std::size_t i = 0; i < series.x.size(); ++i) {
+    const double px = x.at(series.x[i]), py = y.at(series.y[i]);
+    if (!std::isfinite(px) || !std::isfinite(py)) continue;
+    const int cx = static_cast<int>(std::lround(px)), cy = static_cast<int>(std::lround(py));
+    const int r = 5 + 4 * static_cast<int>(index);
+    if (index == 0) canvas.fill(cx - r, cy - r, cx + r + 1, cy + r + 1, colour);
+    for (const int side : {-r, r}) {
+      canvas.line(cx - r, cy + side, cx + r, cy + side, colour, 2);
+      canvas.line(cx + side, cy - r, cx + side, cy + r, colour, 2);
+    }
+    const int width = Canvas::text_width(series.labels[i]);
+    const int left = cx + 18 + width > kWidth - kRight ? cx - 18 - width : cx + 18;
+    canvas.text(left, free_row(labels, cy, series.labels[i]) - Canvas::text_height() / 2, series.labels[i], kInk);
+  }
+}
+
 void draw_series(Canvas& canvas, const ChartSeries& series, const Scale& x, const Scale& y, const Colour& colour) {
   bool joined = false;
   double last_x = 0, last_y = 0;
@@ -144,16 +195,41 @@ void draw_series(Canvas& canvas, const ChartSeries& series, const Scale& x, cons
   }
 }
 
-void draw_legend(Canvas& canvas, const std::vector<ChartSeries>& series) {
+/// How much of the curves lies in [left, right) x [top, bottom) of the picture.
+int covered(const std::vector<ChartSeries>& series, const Scale& x, const Scale& y, const std::array<int, 4>& box) {
+  constexpr int kSteps = 16;  // between two points of a curve
+  int inside = 0;
+  for (const ChartSeries& s : series)
+    for (std::size_t i = 0; i < s.x.size(); ++i)
+      for (int step = 0; step < kSteps; ++step) {
+        const std::size_t next = s.labels.empty() ? std::min(i + 1, s.x.size() - 1) : i;
+        const double t = static_cast<double>(step) / kSteps;
+        const double px = x.at(s.x[i]) * (1 - t) + x.at(s.x[next]) * t;
+        const double py = y.at(s.y[i]) * (1 - t) + y.at(s.y[next]) * t;
+        inside += px >= box[0] && px < box[1] && py >= box[2] && py < box[3];
+      }
+  return inside;
+}
+
+/// In the corner where it covers least.
+void draw_legend(Canvas& canvas, const std::vector<ChartSeries>& series, const Scale& x, const Scale& y) {
   if (series.size() < 2) return;
   std::size_t longest = 0;
   for (const ChartSeries& s : series) longest = std::max(longest, s.name.size());
-  const int left = kWidth - kRight - 60 - static_cast<int>(longest) * 12, top = kTop + 10;
-  canvas.fill(left, top, kWidth - kRight - 8, top + 8 + 22 * static_cast<int>(series.size()), {255, 255, 255});
+  const int width = 52 + static_cast<int>(longest) * 12, height = 8 + 22 * static_cast<int>(series.size());
+  std::array<int, 4> best{};
+  int least = std::numeric_limits<int>::max();
+  for (const int top : {kTop + 10, kHeight - kBottom - 10 - height})
+    for (const int left : {kWidth - kRight - 8 - width, kLeft + 8}) {
+      const std::array<int, 4> box{left, left + width, top, top + height};
+      const int covers = covered(series, x, y, box);
+      if (covers < least) least = covers, best = box;
+    }
+  canvas.fill(best[0], best[2], best[1], best[3], {255, 255, 255});
   for (std::size_t i = 0; i < series.size(); ++i) {
-    const int y = top + 8 + 22 * static_cast<int>(i);
-    canvas.fill(left + 6, y + 5, left + 34, y + 9, kCurves[i % std::size(kCurves)]);
-    canvas.text(left + 42, y, series[i].name, kInk);
+    const int row = best[2] + 8 + 22 * static_cast<int>(i);
+    canvas.fill(best[0] + 6, row + 5, best[0] + 34, row + 9, kCurves[i % std::size(kCurves)]);
+    canvas.text(best[0] + 42, row, series[i].name, kInk);
   }
 }
 
@@ -221,12 +297,17 @@ RgbImage draw(const LineChart& chart) {
   y.from = kHeight - kBottom;
   y.to = kTop;
   draw_title(canvas, chart.title);
+  if (x.logarithmic && !chart.x.zero.empty()) draw_zero(canvas, x, chart.x);
   draw_x_axis(canvas, x, chart.x, kTop, kHeight - kBottom, true);
   draw_y_axis(canvas, y, chart.y, kLeft, kWidth - kRight, true);
   draw_frame(canvas, kLeft, kTop, kWidth - kRight, kHeight - kBottom);
+  std::map<int, std::string> labels;
   for (std::size_t i = 0; i < chart.series.size(); ++i)
-    draw_series(canvas, chart.series[i], x, y, kCurves[i % std::size(kCurves)]);
-  draw_legend(canvas, chart.series);
+    if (chart.series[i].labels.empty())
+      draw_series(canvas, chart.series[i], x, y, kCurves[i % std::size(kCurves)]);
+    else
+      draw_points(canvas, chart.series[i], x, y, i, labels);
+  draw_legend(canvas, chart.series, x, y);
   return canvas.image();
 }
 

@@ -12,12 +12,15 @@ struct ChartAxis {
   std::string label;
   bool logarithmic = false;             ///< only when all values are positive
   std::vector<std::string> categories;  ///< not empty: values are indices of these, evenly spaced
+  double low = 0, high = 0;             ///< low < high: the scale of a line chart reaches over both
+  std::string zero = {};                ///< logarithmic x only: what stands under the place, left of the scale, for 0
 };
 
 /// One curve; a value that is not finite leaves a gap.
 struct ChartSeries {
   std::string name;
   std::vector<double> x, y;
+  std::vector<std::string> labels = {};  ///< not empty: beside the points, which are not joined then
 };
 
 struct LineChart {

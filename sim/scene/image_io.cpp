@@ -1,8 +1,10 @@
 #include "sim/scene/image_io.h"
 
+#include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/imageio.h>
 
 #include <cstdio>
+#include <fstream>
 #include <memory>
 #include <string_view>
 
@@ -20,12 +22,17 @@ void write_image(const std::string& path, const OIIO::ImageSpec& spec, OIIO::Typ
     OIIO::geterror();  // an error nobody fetches is printed at exit
     throw UserError(path, 0, {}, "is not a picture format that can be written");
   }
+  // By way of memory: the library's PNG writer does not notice when the disk is full.
+  OIIO::Filesystem::IOVecOutput bytes;
+  DENDRO_CHECK(out->supports("ioproxy") && out->set_ioproxy(&bytes), "{}", path);
   const bool good = out->open(path, spec) && out->write_image(type, pixels) && out->close();
-  if (!good) {
-    const std::string reason = out->geterror();
-    std::remove(path.c_str());
-    throw UserError(path, 0, {}, "cannot be written" + (reason.empty() ? "" : ": " + reason));
-  }
+  DENDRO_CHECK(good, "{}: {}", path, out->geterror());
+  std::ofstream file(path, std::ios::binary | std::ios::trunc);
+  file.write(reinterpret_cast<const char*>(bytes.buffer().data()), static_cast<std::streamsize>(bytes.buffer().size()));
+  file.close();
+  if (file) return;
+  std::remove(path.c_str());
+  throw UserError(path, 0, {}, "cannot write here: the disk is full or the folder is missing or read-only");
 }
 
 std::unique_ptr<OIIO::ImageInput> open_image(const std::string& path) {

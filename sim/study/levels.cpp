@@ -6,6 +6,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "sim/scene/chart.h"
 #include "sim/stats/run_object.h"
 
 namespace dendro::study {
@@ -19,10 +20,10 @@ struct Made {
 };
 
 /// Host time of a level is told from the level before it: function words to cycle ticks, cycle ticks to
-/// clocked ones. The factors are generous, so that a budget is kept rather than used up.
+/// clocked ones. The factors are about twice what scenes take, so that a budget is kept rather than used up.
 double predicted_seconds(Level level, const std::optional<RunOutput>& before) {
   if (!before) return 0;
-  const double factor = level == Level::kClocked ? 100.0 : 20.0;
+  const double factor = level == Level::kClocked ? 50.0 : 4.0;
   return before->object.host.seconds * factor;
 }
 
@@ -33,6 +34,8 @@ void compare_with(const RunOutput& reference, Made& made) {
   if (run.object.cycles > 0 && reference.object.cycles > 0)
     row.cycle_error = static_cast<double>(run.object.cycles - reference.object.cycles) /
                       static_cast<double>(reference.object.cycles);
+  if (run.object.host.seconds > 0)
+    row.speed = (reference.object.cycles > 0 ? reference.object.seconds : 1) / run.object.host.seconds;
   const bool same_size = run.rgb.size() == reference.rgb.size();
   double squares = 0;
   for (std::size_t pixel = 0; same_size && pixel < run.rgb.size(); pixel += 3) {
@@ -50,7 +53,11 @@ void compare_with(const RunOutput& reference, Made& made) {
   } else if (squares > 0) {
     row.image_psnr_db = 10 * std::log10(255.0 * 255.0 * static_cast<double>(run.rgb.size()) / squares);
   }
+  if (!run.rgb.empty())
+    row.different_share = static_cast<double>(row.different_pixels) / (static_cast<double>(run.rgb.size()) / 3);
 }
+
+bool has_time(const LevelRow& row) { return !row.skipped && row.level != level_name(Level::kFunction); }
 
 }  // namespace
 
@@ -95,6 +102,54 @@ std::vector<LevelRow> compare_levels(const Catalogue& catalogue, const RunArgume
   return rows;
 }
 
+bool has_time(const std::vector<LevelRow>& rows) {
+  return std::any_of(rows.begin(), rows.end(), [](const LevelRow& row) { return has_time(row); });
+}
+
+scene::RgbImage levels_picture(const std::string& scene, const std::vector<LevelRow>& rows) {
+  scene::LineChart chart;
+  chart.title = scene + ": speed against error of every level";
+  chart.x = {"error, share", true, {}, 1e-6, 1, "none"};
+  chart.y.label = has_time(rows) ? "machine s per host s" : "runs per host s";
+  chart.y.logarithmic = true;
+  scene::ChartSeries time{"ticks of the run", {}, {}}, picture{"pixels of the picture", {}, {}};
+  double slowest = INFINITY, fastest = 0;
+  for (const LevelRow& row : rows) {
+    if (row.skipped || row.speed <= 0) continue;
+    slowest = std::min(slowest, row.speed);
+    fastest = std::max(fastest, row.speed);
+    if (has_time(row)) {
+      time.x.push_back(std::fabs(row.cycle_error));
+      time.y.push_back(row.speed);
+      time.labels.push_back(row.level);
+    }
+    picture.x.push_back(row.different_share);
+    picture.y.push_back(row.speed);
+    picture.labels.push_back(has_time(row) ? row.level : row.level + " (no time)");
+  }
+  if (fastest > 0) chart.y.low = slowest / 2, chart.y.high = fastest * 2;
+  chart.series = {std::move(time), std::move(picture)};
+  return scene::draw(chart);
+}
+
+std::string levels_csv(const std::vector<LevelRow>& rows) {
+  std::string text = "level,host_seconds,speed,cycles,cycle_error,image_psnr_db,different_pixels,different_share,"
+                     "speedup_over_clocked,skipped\n";
+  for (const LevelRow& row : rows) {
+    if (row.skipped) {
+      text += fmt::format("{},,,,,,,,,\"{}\"\n", row.level, *row.skipped);
+      continue;
+    }
+    text += fmt::format("{},{},{},{},{},{},{},{},{},\n", row.level, row.host_seconds, row.speed,
+                        has_time(row) ? std::to_string(row.cycles) : "",
+                        has_time(row) ? fmt::format("{}", row.cycle_error) : "",
+                        row.image_psnr_db ? fmt::format("{}", *row.image_psnr_db) : "", row.different_pixels,
+                        row.different_share,
+                        row.speedup_over_clocked ? fmt::format("{}", *row.speedup_over_clocked) : "");
+  }
+  return text;
+}
+
 std::string levels_json(const std::vector<LevelRow>& rows) {
   Json list = Json::array();
   for (const LevelRow& row : rows) {
@@ -102,17 +157,18 @@ std::string levels_json(const std::vector<LevelRow>& rows) {
     json["level"] = row.level;
     if (row.skipped) {
       for (const char* key : {"host_seconds", "cycles", "cycle_error", "interval", "image_psnr_db",
-                              "different_pixels", "speedup_over_clocked"})
+                              "different_pixels", "speed", "speedup_over_clocked"})
         json[key] = nullptr;
       json["skipped"] = *row.skipped;
     } else {
+      const bool timed = has_time(row);
       json["host_seconds"] = row.host_seconds;
-      const bool timed = row.level != level_name(Level::kFunction);
       json["cycles"] = timed ? Json(row.cycles) : Json(nullptr);
       json["cycle_error"] = timed ? Json(row.cycle_error) : Json(nullptr);
       json["interval"] = timed ? Json({row.cycles, row.cycles}) : Json(nullptr);
       json["image_psnr_db"] = row.image_psnr_db ? Json(*row.image_psnr_db) : Json(nullptr);
       json["different_pixels"] = row.different_pixels;
+      json["speed"] = row.speed;
       json["speedup_over_clocked"] =
           row.speedup_over_clocked ? Json(*row.speedup_over_clocked) : Json(nullptr);
       json["skipped"] = nullptr;
@@ -123,18 +179,19 @@ std::string levels_json(const std::vector<LevelRow>& rows) {
 }
 
 std::string levels_text(const std::vector<LevelRow>& rows) {
-  std::string text = fmt::format("{:<10}{:>10}{:>16}{:>14}{:>12}{:>18}{:>10}\n", "level", "host s", "cycles",
-                                 "cycle error", "picture", "different pixels", "speed-up");
+  std::string text = fmt::format("{:<10}{:>10}{:>16}{:>14}{:>12}{:>18}{:>11}{:>10}\n", "level", "host s", "cycles",
+                                 "cycle error", "picture", "different pixels", has_time(rows) ? "real time" : "runs/s",
+                                 "speed-up");
   for (const LevelRow& row : rows) {
     if (row.skipped) {
       text += fmt::format("{:<10}  skipped: {}\n", row.level, *row.skipped);
       continue;
     }
-    text += fmt::format("{:<10}{:>10.3f}{:>16}{:>14}{:>12}{:>18}{:>10}\n", row.level, row.host_seconds,
-                        row.cycles == 0 ? "no time" : stats::grouped(row.cycles),
-                        row.cycles == 0 ? "" : fmt::format("{:.2g}", row.cycle_error),
+    text += fmt::format("{:<10}{:>10.3f}{:>16}{:>14}{:>12}{:>18}{:>11}{:>10}\n", row.level, row.host_seconds,
+                        !has_time(row) ? "no time" : stats::grouped(row.cycles),
+                        !has_time(row) ? "" : fmt::format("{:.2g}", row.cycle_error),
                         row.image_psnr_db ? fmt::format("{:.1f} dB", *row.image_psnr_db) : "identical",
-                        row.different_pixels,
+                        row.different_pixels, fmt::format("{:.3g}x", row.speed),
                         row.speedup_over_clocked ? fmt::format("{:.1f}x", *row.speedup_over_clocked) : "");
   }
   return text;

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "sim/scene/image_io.h"
 #include "sim/study/run.h"
 
 namespace dendro::study {
@@ -16,6 +17,9 @@ struct LevelRow {
   double cycle_error = 0;               ///< (cycles - reference) / reference; 0 at a level without time
   std::optional<double> image_psnr_db;  ///< against the reference's picture; none: identical
   std::int64_t different_pixels = 0;
+  double different_share = 0;  ///< of all pixels
+  /// Seconds of the reference's machine per second of this computer; runs per second when no level with time was run.
+  double speed = 0;
   std::optional<double> speedup_over_clocked;
   std::optional<std::string> skipped;  ///< why there is no run
 };
@@ -26,6 +30,12 @@ struct LevelRow {
 std::vector<LevelRow> compare_levels(const Catalogue& catalogue, const RunArguments& arguments, double budget,
                                      Progress* progress);
 
+/// `speed` of the rows is that of a machine's seconds: some level with time was run.
+bool has_time(const std::vector<LevelRow>& rows);
+
+/// Speed against the two errors, of time and of the picture, on logarithmic axes; an error of 0 has a place of its own.
+scene::RgbImage levels_picture(const std::string& scene, const std::vector<LevelRow>& rows);
+std::string levels_csv(const std::vector<LevelRow>& rows);
 std::string levels_json(const std::vector<LevelRow>& rows);
 std::string levels_text(const std::vector<LevelRow>& rows);
 

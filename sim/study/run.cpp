@@ -310,6 +310,10 @@ RunOutput execute(const RunRequest& request, const std::string& folder, Progress
   add_counters(*machine, seconds, output.object);
   if (request.options.cost)
     output.object.facts.emplace_back("cost.elsewhere_ticks", static_cast<double>(machine->costs().elsewhere));
+  if (request.options.activity > 0) {
+    output.phases = machine->phases();
+    output.activity = machine->activity();
+  }
   stats::check_sanity(output.object);
   if (request.with_picture) add_picture(*machine, *job, folder, output);
   return output;
@@ -326,7 +330,15 @@ RunOutput execute_in_worker(const RunRequest& request, const std::string& folder
 }
 
 std::string to_bytes(const RunOutput& output) {
-  Json json;
+  Json json, phases = Json::array(), activity = Json::array();
+  for (const Phase& p : output.phases) phases.push_back({p.name, p.cycles, p.on_host});
+  for (const ActivitySample& sample : output.activity) {
+    Json units = Json::array();
+    for (const UnitStats& unit : sample.units) units.push_back({unit.unit, unit.values});
+    activity.push_back({sample.tick, std::move(units)});
+  }
+  json["phases"] = std::move(phases);
+  json["activity"] = std::move(activity);
   json["object"] = stats::to_json(output.object);
   json["rgb"] = Json::binary(output.rgb);
   json["inputs"] = output.inputs;
@@ -339,6 +351,16 @@ RunOutput from_bytes(const std::string& bytes) {
   const Json json = Json::from_cbor(bytes);
   RunOutput output;
   output.object = stats::from_json(json.at("object").get<std::string>());
+  for (const Json& p : json.at("phases"))
+    output.phases.push_back({p.at(0).get<std::string>(), p.at(1).get<std::int64_t>(), p.at(2).get<bool>()});
+  for (const Json& s : json.at("activity")) {
+    ActivitySample sample{s.at(0).get<std::int64_t>(), {}};
+    for (const Json& unit : s.at(1)) {
+      auto values = unit.at(1).get<std::vector<std::pair<std::string, std::uint64_t>>>();
+      sample.units.push_back({unit.at(0).get<std::string>(), std::move(values)});
+    }
+    output.activity.push_back(std::move(sample));
+  }
   output.rgb = json.at("rgb").get_binary();
   output.inputs = json.at("inputs").get<std::vector<std::pair<std::string, std::string>>>();
   output.firmware = json.at("firmware").get<std::vector<std::pair<std::string, std::string>>>();

@@ -39,6 +39,9 @@ struct RunRequest {
 
 struct RunOutput {
   stats::RunObject object;
+  /// With MachineOptions::activity: the phases in their order, each as often as it came, and samples of the counters.
+  std::vector<Phase> phases;
+  std::vector<ActivitySample> activity;
   std::vector<std::uint8_t> rgb;                              ///< the picture, 8-bit RGB, rows top down
   std::vector<std::pair<std::string, std::string>> inputs;    ///< absolute path, SHA-256
   std::vector<std::pair<std::string, std::string>> firmware;  ///< name, SHA-256

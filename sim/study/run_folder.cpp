@@ -1,18 +1,19 @@
 #include "sim/study/run_folder.h"
 
 #include <fmt/format.h>
+#include <fcntl.h>
 #include <unistd.h>
 
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
 
-#include "sim/base/error.h"
-
 namespace dendro::study {
 namespace {
 
 namespace fs = std::filesystem;
+
+constexpr const char* kFull = "the disk is full or the folder is read-only";
 
 [[noreturn]] void cannot_write(const std::string& path, const std::string& why) {
   throw UserError(path, 0, "", "cannot write here: " + why);
@@ -22,13 +23,32 @@ void write_file(const std::string& path, const std::string& text, const std::str
   std::ofstream out(path, std::ios::binary | std::ios::trunc);
   out << text;
   out.close();
-  if (!out) cannot_write(shown, "the disk is full or the folder is read-only");
+  if (!out) cannot_write(shown, kFull);
 }
 
 void rename_over(const fs::path& from, const fs::path& to) {
   std::error_code error;
   fs::rename(from, to, error);
   if (error) cannot_write(to.string(), error.message());
+}
+
+/// A full disk refuses the first block already, before long work instead of after it.
+bool takes_a_block(const std::string& path) {
+  std::ofstream out(path, std::ios::binary | std::ios::trunc);
+  out << std::string(4096, ' ');
+  out.close();
+  const bool good = static_cast<bool>(out);
+  std::ofstream(path, std::ios::binary | std::ios::trunc);
+  return good;
+}
+
+/// The same of a device that is no terminal; what stands behind it gets an empty line.
+bool takes_a_line(const std::string& path) {
+  const int fd = ::open(path.c_str(), O_WRONLY | O_NOCTTY);
+  if (fd < 0) return true;  // whatever it is, the write will say
+  const bool good = ::isatty(fd) != 0 || ::write(fd, "\n", 1) == 1;
+  ::close(fd);
+  return good;
 }
 
 /// Folders that must be made for `folder` to exist, outermost first.
@@ -58,6 +78,10 @@ RunFolder::RunFolder(const std::string& path) {
   if (!error) fs::create_directory(work_, error);
   if (!error && fs::is_directory(path_) && ::access(path_.c_str(), W_OK) != 0)
     error = std::make_error_code(std::errc::permission_denied);
+  const std::string probe = work_ + "/probe";
+  if (!error && !takes_a_block(probe)) error = std::make_error_code(std::errc::no_space_on_device);
+  std::error_code unused;
+  fs::remove(probe, unused);
   if (error) {
     const std::string why = error.message();
     std::error_code ignored;
@@ -78,6 +102,11 @@ void RunFolder::write(const std::string& name, const std::string& text) {
   write_file(work_ + "/" + name, text, path_ + "/" + name);
 }
 
+void RunFolder::rename(const UserError& error) const {
+  if (error.file().compare(0, work_.size(), work_) != 0) throw error;
+  throw UserError(path_ + error.file().substr(work_.size()), error.line(), error.key(), error.message());
+}
+
 void RunFolder::commit() {
   if (!fs::exists(path_)) {
     rename_over(work_, path_);
@@ -95,6 +124,7 @@ OutputFile::OutputFile(const std::string& path) : path_(path) {
   const auto status = fs::status(path_, error);
   if (fs::is_directory(status)) cannot_write(path_, "it is a folder");
   if (fs::exists(status) && ::access(path_.c_str(), W_OK) != 0) cannot_write(path_, "permission denied");
+  if (fs::is_character_file(status) && !takes_a_line(path_)) cannot_write(path_, kFull);
   if (fs::exists(status) && !fs::is_regular_file(status)) return;
   work_ = fmt::format("{}.partial-{}", path_, ::getpid());
   std::ofstream out(work_);
@@ -102,6 +132,10 @@ OutputFile::OutputFile(const std::string& path) : path_(path) {
     work_.clear();
     cannot_write(path_, "the folder does not exist or is read-only");
   }
+  out.close();
+  if (takes_a_block(work_)) return;
+  fs::remove(work_, error);
+  cannot_write(path_, kFull);
 }
 
 OutputFile::~OutputFile() {

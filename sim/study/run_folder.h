@@ -3,6 +3,8 @@
 #include <string>
 #include <vector>
 
+#include "sim/base/error.h"
+
 namespace dendro::study {
 
 /// A run directory that appears whole or not at all: files go to a working folder beside it until commit().
@@ -21,10 +23,21 @@ class RunFolder {
   const std::string& path() const { return path_; }
 
   void write(const std::string& name, const std::string& text);
+  /// Does what writes into work(); its complaints name the place where the files were to be.
+  template <class Action>
+  auto writing(const Action& action) const {
+    try {
+      return action();
+    } catch (const UserError& error) {
+      rename(error);
+    }
+  }
   /// Moves everything into place; files of the same names are replaced, others in the directory stay.
   void commit();
 
  private:
+  [[noreturn]] void rename(const UserError& error) const;
+
   std::string path_, work_;
   std::vector<std::string> made_;  // folders above, outermost first
   bool committed_ = false;
@@ -34,7 +47,7 @@ class RunFolder {
 /// standard output.
 class OutputFile {
  public:
-  /// Throws UserError when it cannot be written; an empty path means no file.
+  /// Throws UserError when it cannot be written, also for a disk that is full already; an empty path means no file.
   explicit OutputFile(const std::string& path);
   ~OutputFile();
   OutputFile(const OutputFile&) = delete;

@@ -102,42 +102,13 @@ std::vector<Value> ranged(TableReader& reader, bool logarithmic, bool many) {
     const double share = count > 1 ? static_cast<double>(i) / (count - 1) : 0;
     double v = logarithmic ? from * std::pow(to / from, share) : from + static_cast<double>(i) * step;
     if (!integers) {
-      values.emplace_back(v);
+      values.emplace_back(std::stod(fmt::format("{:.12g}", v)));  // 3.8, not 3.8000000000000003
       continue;
     }
     const Value rounded = static_cast<std::int64_t>(std::llround(v));
     if (values.empty() || values.back() != rounded) values.push_back(rounded);
   }
   return values;
-}
-
-StudyAxis read_axis(const Node& table, const std::string& path, bool many) {
-  TableReader reader(table, path);
-  // First, so that a misspelt key is not reported as a missing one.
-  for (const char* key : {"key", "label", "scale", "values", "from", "to", "step", "count"}) reader.node(key);
-  reader.finish();
-  StudyAxis axis;
-  axis.where = table.where;
-  axis.key = reader.text("key", "");
-  if (axis.key.empty()) reader.fail("key", "an axis needs the key that it varies");
-  axis.label = reader.text("label", axis.key);
-  axis.logarithmic = reader.choice("scale", "linear", {"linear", "log"}) == "log";
-  axis.values = reader.has("values") ? listed(reader, many) : ranged(reader, axis.logarithmic, many);
-  if (axis.values.empty()) reader.fail("values", "the axis is empty");
-  std::set<Value> seen;
-  for (const Value& v : axis.values)
-    if (!seen.insert(v).second) reader.fail("values", config::to_text(v) + " is there twice");
-  return axis;
-}
-
-void flatten(const Node& node, const std::string& prefix, std::vector<std::string>& settings) {
-  for (const auto& [name, member] : node.members) {
-    const std::string key = prefix.empty() ? name : prefix + "." + name;
-    if (member.kind == Node::Kind::kTable)
-      flatten(member, key, settings);
-    else
-      settings.push_back(key + "=" + config::to_toml(member));
-  }
 }
 
 std::vector<std::string> read_words(TableReader& root, const std::string& key, std::vector<std::string> otherwise) {
@@ -153,6 +124,38 @@ std::vector<std::string> read_words(TableReader& root, const std::string& key, s
   }
   if (words.empty()) root.fail(key, "the list is empty");
   return words;
+}
+
+StudyAxis read_axis(const Node& table, const std::string& path, bool many) {
+  TableReader reader(table, path);
+  // First, so that a misspelt key is not reported as a missing one.
+  for (const char* key : {"key", "label", "scale", "values", "names", "from", "to", "step", "count"}) reader.node(key);
+  reader.finish();
+  StudyAxis axis;
+  axis.where = table.where;
+  axis.key = reader.text("key", "");
+  if (axis.key.empty()) reader.fail("key", "an axis needs the key that it varies");
+  axis.label = reader.text("label", axis.key);
+  axis.logarithmic = reader.choice("scale", "linear", {"linear", "log"}) == "log";
+  axis.values = reader.has("values") ? listed(reader, many) : ranged(reader, axis.logarithmic, many);
+  if (axis.values.empty()) reader.fail("values", "the axis is empty");
+  axis.names = read_words(reader, "names", {});
+  if (!axis.names.empty() && axis.names.size() != axis.values.size())
+    reader.fail("names", fmt::format("{} names for {} values", axis.names.size(), axis.values.size()));
+  std::set<Value> seen;
+  for (const Value& v : axis.values)
+    if (!seen.insert(v).second) reader.fail("values", config::to_text(v) + " is there twice");
+  return axis;
+}
+
+void flatten(const Node& node, const std::string& prefix, std::vector<std::string>& settings) {
+  for (const auto& [name, member] : node.members) {
+    const std::string key = prefix.empty() ? name : prefix + "." + name;
+    if (member.kind == Node::Kind::kTable)
+      flatten(member, key, settings);
+    else
+      settings.push_back(key + "=" + config::to_toml(member));
+  }
 }
 
 /// A path in a study is relative to its file; a name stays a name.
@@ -183,8 +186,14 @@ void read_axes(TableReader& root, bool many, Study& study) {
 
 }  // namespace
 
+std::string StudyAxis::text_of(std::size_t value) const {
+  if (!names.empty()) return names[value];
+  const auto* word = std::get_if<std::string>(&values[value]);
+  return word ? *word : config::to_text(values[value]);
+}
+
 bool StudyAxis::numeric() const {
-  return std::all_of(values.begin(), values.end(), [](const Value& v) {
+  return names.empty() && std::all_of(values.begin(), values.end(), [](const Value& v) {
     return std::holds_alternative<std::int64_t>(v) || std::holds_alternative<double>(v);
   });
 }

@@ -15,8 +15,12 @@ struct StudyAxis {
   std::string label;  ///< for pictures; the key unless the file says otherwise
   bool logarithmic = false;
   std::vector<config::Value> values;
+  std::vector<std::string> names;  ///< what stands for every value in pictures and tables, or empty
   config::Where where;
 
+  /// A value as text: its name if it has one, a word without quotes.
+  std::string text_of(std::size_t value) const;
+  /// Values lie where their size says; otherwise one stands beside the other.
   bool numeric() const;
 };
 

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <limits>
+#include <optional>
 
 #include "sim/base/error.h"
 #include "sim/config/nearest.h"
@@ -79,10 +80,19 @@ void check_outputs(const Study& study, const SweepRow& row) {
                       "runs have no figure `" + output + "`" + config::did_you_mean(output, names));
 }
 
-void make_folder(const std::string& folder) {
+/// True when it was not there before.
+bool make_folder(const std::string& folder) {
   std::error_code error;
-  fs::create_directories(folder, error);
+  const bool made = fs::create_directories(folder, error);
   if (error) throw UserError(folder, 0, "", "cannot write here: " + error.message());
+  return made;
+}
+
+/// A folder that was made for nothing goes again.
+void remove_folder(const std::string& folder) {
+  std::error_code error;
+  fs::remove(fs::path(folder) / "results.sqlite", error);
+  fs::remove(folder, error);
 }
 
 class Sweeper {
@@ -106,6 +116,8 @@ class Sweeper {
       throw UserError(study_.file, 0, "", "every run is refused: " + outcome_.rows.front().refused);
     return std::move(outcome_);
   }
+
+  bool has_results() const { return outcome_.made > 0; }
 
  private:
   struct Open {
@@ -176,8 +188,17 @@ class Sweeper {
 
 SweepOutcome sweep(const Catalogue& catalogue, const Study& study, const SweepOptions& options, Progress* progress) {
   check_settings(catalogue, study);
-  make_folder(options.folder);
-  return Sweeper(catalogue, study, options, progress).run();
+  const bool made = make_folder(options.folder);
+  std::optional<Sweeper> sweeper;
+  try {
+    sweeper.emplace(catalogue, study, options, progress);
+    return sweeper->run();
+  } catch (...) {
+    const bool without_result = !sweeper || !sweeper->has_results();
+    sweeper.reset();
+    if (made && without_result) remove_folder(options.folder);
+    throw;
+  }
 }
 
 double output_of(const SweepRow& row, const std::string& output) {

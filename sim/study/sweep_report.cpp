@@ -19,10 +19,10 @@ std::string csv_cell(const std::string& text) {
   return out + "\"";
 }
 
-/// A word without its quotes.
-std::string plain(const config::Value& value) {
-  const auto* word = std::get_if<std::string>(&value);
-  return word ? *word : config::to_text(value);
+/// The value itself, for machines to read.
+std::string plain(const StudyAxis& axis, std::size_t value) {
+  const auto* word = std::get_if<std::string>(&axis.values[value]);
+  return word ? *word : config::to_text(axis.values[value]);
 }
 
 std::string number(double value) { return std::isfinite(value) ? fmt::format("{}", value) : ""; }
@@ -53,9 +53,9 @@ std::vector<std::size_t> varied(const Study& study) {
 scene::ChartAxis chart_axis(const StudyAxis& axis, bool categories) {
   scene::ChartAxis chart{axis.label, axis.logarithmic, {}};
   if (categories || !axis.numeric())
-    for (const config::Value& v : axis.values) {
-      const auto* real = std::get_if<double>(&v);
-      chart.categories.push_back(real ? scene::short_number(*real) : plain(v));
+    for (std::size_t i = 0; i < axis.values.size(); ++i) {
+      const auto* real = axis.names.empty() ? std::get_if<double>(&axis.values[i]) : nullptr;
+      chart.categories.push_back(real ? scene::short_number(*real) : axis.text_of(i));
     }
   return chart;
 }
@@ -87,6 +87,28 @@ scene::RgbImage line_picture(const Study& study, const std::vector<SweepRow>& ro
   return scene::draw(chart);
 }
 
+/// Two axes, of which one has a few values without an order: a curve for each of them.
+constexpr std::size_t kMostCurves = 6;
+
+bool is_curves(const Study& study, std::size_t across, std::size_t along) {
+  return study.levels.size() == 1 && !study.axes[across].numeric() && study.axes[across].values.size() <= kMostCurves &&
+         study.axes[along].numeric();
+}
+
+scene::RgbImage curves_picture(const Study& study, const std::vector<SweepRow>& rows, const std::string& output,
+                               std::size_t across, std::size_t along) {
+  scene::LineChart chart{title(study, output), chart_axis(study.axes[along], false), {output, false, {}}, {}};
+  for (std::size_t value = 0; value < study.axes[across].values.size(); ++value)
+    chart.series.push_back({study.axes[across].label + ": " + study.axes[across].text_of(value), {}, {}});
+  for (std::size_t run = 0; run < study.runs(); ++run) {
+    const auto place = study.place(run);
+    scene::ChartSeries& series = chart.series[place[across]];
+    series.x.push_back(position(study.axes[along], place[along]));
+    series.y.push_back(output_of(rows[run], output));
+  }
+  return scene::draw(chart);
+}
+
 scene::RgbImage heat_picture(const Study& study, const std::vector<SweepRow>& rows, const std::string& output,
                              std::size_t x, std::size_t y) {
   scene::HeatMap map{title(study, output), chart_axis(study.axes[x], true), chart_axis(study.axes[y], true), output, {}};
@@ -114,7 +136,7 @@ std::string sweep_csv(const Study& study, const std::vector<SweepRow>& rows) {
     const SweepRow& row = rows[run];
     const auto place = study.place(run);
     text += fmt::format("{},{}", run, study.level_of(run));
-    for (std::size_t i = 0; i < place.size(); ++i) text += "," + csv_cell(plain(study.axes[i].values[place[i]]));
+    for (std::size_t i = 0; i < place.size(); ++i) text += "," + csv_cell(plain(study.axes[i], place[i]));
     for (const std::string& output : study.outputs) text += "," + number(output_of(row, output));
     text += fmt::format(",{},{},{},{},{},{},{}", csv_cell(row.refused), csv_cell(row.scene), row.machine, row.preset,
                         row.seed, row.git, row.image_sha256);
@@ -131,6 +153,7 @@ std::string sweep_json(const Study& study, const SweepOutcome& outcome) {
     Json values = Json::array();
     for (const config::Value& v : axis.values) values.push_back(json_of(v));
     axes.push_back({{"key", axis.key}, {"values", values}});
+    if (!axis.names.empty()) axes.back()["names"] = axis.names;
   }
   for (std::size_t run = 0; run < outcome.rows.size(); ++run) {
     const SweepRow& row = outcome.rows[run];
@@ -172,7 +195,7 @@ std::string sweep_text(const Study& study, const std::vector<SweepRow>& rows, st
     const auto place = study.place(run);
     text += fmt::format("{:<10}", study.level_of(run));
     for (std::size_t i = 0; i < place.size(); ++i)
-      text += fmt::format("  {:>{}}", plain(study.axes[i].values[place[i]]), width(study.axes[i].key));
+      text += fmt::format("  {:>{}}", study.axes[i].text_of(place[i]), width(study.axes[i].key));
     if (!rows[run].refused.empty()) {
       text += "  refused: " + rows[run].refused + "\n";
       continue;
@@ -195,8 +218,10 @@ bool has_picture(const Study& study) {
 scene::RgbImage sweep_picture(const Study& study, const std::vector<SweepRow>& rows, const std::string& output) {
   const auto axes = varied(study);
   DENDRO_CHECK(has_picture(study), "{} axes", axes.size());
-  return axes.size() == 1 ? line_picture(study, rows, output, axes[0])
-                          : heat_picture(study, rows, output, axes[0], axes[1]);
+  if (axes.size() == 1) return line_picture(study, rows, output, axes[0]);
+  if (is_curves(study, axes[0], axes[1])) return curves_picture(study, rows, output, axes[0], axes[1]);
+  if (is_curves(study, axes[1], axes[0])) return curves_picture(study, rows, output, axes[1], axes[0]);
+  return heat_picture(study, rows, output, axes[0], axes[1]);
 }
 
 }  // namespace dendro::study

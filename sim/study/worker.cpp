@@ -187,6 +187,8 @@ void catch_interrupts() {
   action.sa_handler = remember_signal;
   ::sigaction(SIGINT, &action, nullptr);
   ::sigaction(SIGTERM, &action, nullptr);
+  // A file that may not grow is a write that fails, with its one line, as on a full disk.
+  std::signal(SIGXFSZ, SIG_IGN);
 }
 
 void check_interrupt() {

@@ -45,7 +45,7 @@ std::string run_in_worker(const std::function<std::string()>& task);
 /// Number of workers that keep this computer busy.
 int default_jobs();
 
-/// Makes Ctrl-C reach run_in_workers as Interrupted. Called once, by the command.
+/// Makes Ctrl-C reach run_in_workers as Interrupted, and a file that may not grow a failed write. Called once, by the command.
 void catch_interrupts();
 
 /// Throws Interrupted when a signal has come since.

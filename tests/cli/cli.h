@@ -43,6 +43,18 @@ class CommandTest : public ::testing::Test {
     return {WIFEXITED(status) ? WEXITSTATUS(status) : 1000 + WTERMSIG(status), text_of(out), text_of(err)};
   }
 
+  /// The same with files that cannot grow beyond so many blocks of 512 bytes, which stands for a full disk.
+  Result dendro_within(int blocks, const std::string& arguments) const {
+    const std::string limited = (base_ / "limited.sh").string();
+    std::ofstream(limited) << "ulimit -f " << blocks << "\nexec '" DENDRO "' " << arguments << "\n";
+    const std::string out = (base_ / "out").string(), err = (base_ / "err").string();
+    // Pipes, as the limit holds for the command's messages, too.
+    const std::string line = "cd '" + folder_.string() + "' && { sh '" + limited + "' 2>&1 >/dev/null </dev/null; echo $? >'" +
+                             out + "'; } | cat >'" + err + "'";
+    const int status = std::system(line.c_str());
+    return {WIFEXITED(status) ? std::atoi(text_of(out).c_str()) : 1000, "", text_of(err)};
+  }
+
   void write(const std::string& name, const std::string& text) const {
     std::ofstream(folder_ / name, std::ios::binary) << text;
   }

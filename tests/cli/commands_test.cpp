@@ -83,18 +83,24 @@ TEST_F(Commands, AProgramMayHaveTheLineEndsOfAnotherSystem) {
 
 TEST_F(Commands, LevelsComparesEveryLevelWithClocked) {
   write("s.toml", scene_with("solid = \"icosahedron\"\n"));
-  const Result result = dendro("levels s.toml --json o.json");
+  const Result result = dendro("levels s.toml --out lv --json o.json");
   ASSERT_EQ(0, result.status) << result.err;
   EXPECT_EQ("", result.err);
+  EXPECT_EQ(read("o.json"), read("lv/levels.json"));
+  EXPECT_EQ(0u, result.out.find(read("lv/summary.txt")));
+  const std::string csv = read("lv/levels.csv");
+  EXPECT_EQ(5, std::count(csv.begin(), csv.end(), '\n'));
+  EXPECT_EQ(0u, read("lv/levels.png").find("\x89PNG"));
   const json rows = json::parse(read("o.json"))["rows"];
   ASSERT_EQ(4u, rows.size());
   std::int64_t cycles = 0;
   for (const json& row : rows) {
     for (const char* key : {"level", "host_seconds", "cycles", "cycle_error", "interval", "image_psnr_db",
-                            "different_pixels", "speedup_over_clocked", "skipped"})
+                            "different_pixels", "speed", "speedup_over_clocked", "skipped"})
       EXPECT_TRUE(row.contains(key)) << key;
     if (!row["skipped"].is_null()) continue;
     EXPECT_EQ(0, row["different_pixels"]) << row["level"];
+    EXPECT_LT(0.0, row["speed"]) << row["level"];
     if (row["level"] == "function") {
       EXPECT_TRUE(row["cycles"].is_null() && row["cycle_error"].is_null() && row["interval"].is_null())
           << row;
@@ -115,6 +121,22 @@ TEST_F(Commands, LevelsKeepsItsBudget) {
   const json rows = json::parse(read("o.json"))["rows"];
   EXPECT_TRUE(rows.back()["skipped"].is_string());
   EXPECT_TRUE(rows.back()["cycles"].is_null());
+}
+
+TEST_F(Commands, LevelsWorksOnEverySceneThatShips) {
+  std::istringstream scenes(dendro("scenes").out);
+  int seen = 0;
+  for (std::string line; std::getline(scenes, line); ++seen) {
+    const std::string name = line.substr(0, line.find(' '));
+    const Result result = dendro("levels " + name + " --budget 0.001 --out " + name);
+    EXPECT_EQ(0, result.status) << name << result.err;
+    const json rows = json::parse(read(name + "/levels.json"))["rows"];
+    ASSERT_EQ(4u, rows.size());
+    EXPECT_TRUE(rows[0]["skipped"].is_null()) << name;
+    for (std::size_t i = 1; i < rows.size(); ++i) EXPECT_TRUE(rows[i]["skipped"].is_string()) << name;
+    EXPECT_EQ(0u, read(name + "/levels.png").find("\x89PNG"));
+  }
+  EXPECT_LE(7, seen);
 }
 
 TEST_F(Commands, BenchMeasuresTheLevelAskedFor) {

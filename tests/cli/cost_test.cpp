@@ -57,24 +57,6 @@ TEST_F(Cost, TheAccountChangesNothingElse) {
   EXPECT_FALSE(std::filesystem::exists(folder_ / "without/cost_ticks.png"));
 }
 
-TEST_F(Cost, TheTimelineIsThePhasesOneAfterAnother) {
-  ASSERT_EQ(0, dendro("run s.toml --quiet --out r --timeline t.json").status);
-  const json phases = json::parse(read("r/stats.json")).at("phases");
-  std::vector<json> spans;
-  const json trace = json::parse(read("t.json"));
-  for (const json& event : trace["traceEvents"])
-    if (event["ph"] == "X" && event["name"] != "whole run") spans.push_back(event);
-  ASSERT_EQ(phases.size(), spans.size());
-  double at = 0;
-  for (std::size_t i = 0; i < spans.size(); ++i) {
-    EXPECT_EQ(phases[i]["name"], spans[i]["name"]);
-    EXPECT_EQ(phases[i]["cycles"].get<double>(), spans[i]["args"]["ticks"].get<double>());
-    EXPECT_NEAR(at, spans[i]["ts"].get<double>(), 1e-3);
-    at += spans[i]["dur"].get<double>();
-  }
-  expect_user_error("run s.toml --level function --timeline f.json", "--timeline: there is no time");
-}
-
 TEST_F(Cost, OtherLevelsKeepNoAccount) {
   expect_user_error("run s.toml --cost --level function", "--cost: ticks are counted by pixel at --level cycle only");
   expect_user_error("run s.toml --cost --level clocked", "--cost");

@@ -1,5 +1,7 @@
 #include <unistd.h>
 
+#include <tuple>
+
 #include "tests/cli/cli.h"
 
 namespace dendro::cli {
@@ -127,10 +129,36 @@ TEST_F(Sweep, AFullDiskIsOneLineAndKeepsWhatWasThere) {
   EXPECT_EQ(3, json::parse(read("o.json"))["found"]);
 }
 
+// The machine's answers at the ends of three axes, so that none of them is a parameter that does nothing.
+TEST_F(Sweep, WhatAStudyVariesChangesTheRun) {
+  for (const auto& [key, low, high] : {std::tuple("parameters.processor.multiply_ticks", "2", "32"),
+                                       {"parameters.frame_memory.read_ticks", "1", "12"},
+                                       {"parameters.host.program_load_s", "0.03", "10.0"},
+                                       {"half_space.boxing", "true", "false"},
+                                       {"parameters.processor.tick_ns", "50.0", "400.0"}}) {
+    write("a.toml", "scene = \"icosahedron\"\n[set]\n\"image.width\" = 64\n\"image.height\" = 64\n[[axis]]\nkey = \"" +
+                        std::string(key) + "\"\nvalues = [" + low + ", " + high + "]\n");
+    ASSERT_EQ(0, dendro("sweep a.toml --out r --quiet --json o.json").status) << key;
+    const json rows = json::parse(read("o.json"))["rows"];
+    EXPECT_LT(rows[0]["outputs"]["seconds"], rows[1]["outputs"]["seconds"]) << key;
+  }
+}
+
+TEST_F(Sweep, CurvesOrAMapAndNamesOfValuesInTheTable) {
+  write("a.toml", study("key = \"half_space.boxing\"\nvalues = [true, false]\n[[axis]]\nkey = "
+                        "\"parameters.processor.multiply_ticks\"\nvalues = [2, 8]\nnames = [\"16x16\", \"8x8\"]\n"));
+  const Result result = dendro("sweep a.toml --out r --json o.json");
+  ASSERT_EQ(0, result.status) << result.err;
+  EXPECT_NE(std::string::npos, result.out.find("16x16"));
+  EXPECT_NE(std::string::npos, read("r/results.csv").find("\n1,cycle,true,8,"));
+  EXPECT_EQ((json{"16x16", "8x8"}), json::parse(read("o.json"))["axes"][1]["names"]);
+  EXPECT_EQ(0u, read("r/seconds.png").find("\x89PNG"));
+}
+
 TEST_F(Sweep, TheListNamesEveryStudyThatShips) {
   const Result list = dendro("sweep --list");
   EXPECT_EQ(0, list.status);
-  for (const char* name : {"tick-time", "bits-per-pixel", "read-ticks", "boxing", "multiply-ticks", "control-store"})
+  for (const char* name : {"tick-time", "bits-per-pixel", "read-ticks", "boxing", "multiplier-width", "control-store"})
     EXPECT_NE(std::string::npos, list.out.find(name)) << name;
 }
 

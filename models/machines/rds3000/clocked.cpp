@@ -33,6 +33,7 @@ ClockedEngine::ClockedEngine(sc_core::sc_module_name name, const Spec& spec, con
                "SystemC's resolution is not 1 ps");
   DENDRO_CHECK(tick_ps_ >= 2, "tick of {} ps", tick_ps_);
   display_.restart(video::raster_of(video_, spec_.video, spec_.memory.fetch_bits), -spec_.video.phase_ps, 0);
+  if (options_.activity > 0) activity_ = std::make_unique<ActivityLog>(options_.activity);
   if (!options_.vcd_file.empty()) vcd_ = std::make_unique<ClockedVcd>(*this, options_);
   SC_HAS_PROCESS(ClockedEngine);
   SC_METHOD(on_edge);
@@ -52,6 +53,7 @@ void ClockedEngine::on_edge() {
 }
 
 void ClockedEngine::evaluate(std::int64_t n) {
+  if (activity_ && activity_->next() == n) activity_->take(processor_counters_, bus_counters_, memory_counters_);
   periodic_events(n);
   complete_accesses(n);
   if (vcd_ && vcd_->wants(n)) vcd_->before(n);

@@ -104,6 +104,7 @@ CycleEngine::CycleEngine(const Spec& spec, const MachineOptions& options)
   if (options.recorder)
     recorder_ = make_recorder(*options.recorder, {spec_, processor_, devices_, timing_, raster_});
   if (recorder_ && recorder_->from() == 0) recorder_->begin(0);
+  if (options.activity > 0) activity_ = std::make_unique<ActivityLog>(options.activity);
   if (options.cost) cost_ = std::make_unique<PixelCost>(std::size_t{dr64::kWidth} * dr64::kHeight);
 }
 
@@ -251,7 +252,17 @@ void CycleEngine::find_loop() {
   }
 }
 
+// Nothing that happens before `end` comes later than this call, so samples before it are final.
 void CycleEngine::run_until(std::int64_t end) {
+  while (activity_ && activity_->next() < end) {
+    const std::int64_t tick = activity_->next();
+    run_to(tick);
+    activity_->take(counters_before(tick), bus_counters_, timing_.counters_before(tick));
+  }
+  run_to(end);
+}
+
+void CycleEngine::run_to(std::int64_t end) {
   if (!processor_.running) return;
   const bool limited = options_.tick_limit > 0 && run_from_ + options_.tick_limit < end;
   const std::int64_t stop = limited ? run_from_ + options_.tick_limit : end;
@@ -337,7 +348,9 @@ void CycleEngine::command(bool run, bool reset) {
 void CycleEngine::host_sleeps() {
   constexpr std::int64_t kSlice = 1 << 24;
   while (processor_.running) {
-    run_until(now_ + kSlice);
+    // What comes after a halt is not known here, so no sample is passed in one step.
+    const std::int64_t sample = activity_ ? std::max(activity_->next(), now_ + 1) : INT64_MAX;
+    run_until(std::min(now_ + kSlice, sample));
     if (options_.progress) options_.progress(now_);
   }
   wait_until(now_);
@@ -348,12 +361,19 @@ void CycleEngine::finish(std::int64_t end) {
   if (recorder_) recorder_->end(end);
   if (processor_.running) stopped(end);
   timing_.settle(end);
-  std::int64_t ran = 0;
+  counters_ = counters_before(end);
+}
+
+// Stalls are counted as they come; the rest follows from how long the processor ran.
+ProcessorCounters CycleEngine::counters_before(std::int64_t tick) const {
+  std::int64_t ran = processor_.running ? tick - run_from_ : 0;
   for (const RunInterval& run : runs_) ran += run.to - run.from;
-  const std::uint64_t stalls = counters_.stall_host + counters_.stall_data + counters_.stall_bus +
-                               counters_.stall_scratch + counters_.stall_branch;
-  counters_.busy = static_cast<std::uint64_t>(ran) - stalls;
-  counters_.idle = static_cast<std::uint64_t>(end - ran);
+  ProcessorCounters counters = counters_;
+  const std::uint64_t stalls = counters.stall_host + counters.stall_data + counters.stall_bus +
+                               counters.stall_scratch + counters.stall_branch;
+  counters.busy = static_cast<std::uint64_t>(ran) - stalls;
+  counters.idle = static_cast<std::uint64_t>(tick - ran);
+  return counters;
 }
 
 }  // namespace dendro::rds3000

@@ -45,6 +45,8 @@ class CycleEngine : public Engine {
   void wait_until(std::int64_t tick);
 
   void run_until(std::int64_t end);
+  void run_to(std::int64_t end);
+  ProcessorCounters counters_before(std::int64_t tick) const;
   void stride(std::int64_t end);
   template <class Port>
   void stride_with(Port port, std::int64_t end);

@@ -3,12 +3,14 @@
 #include <cstdint>
 #include <exception>
 #include <map>
+#include <memory>
 #include <string>
 #include <vector>
 
 #include "models/machines/machine.h"
 #include "models/machines/rds3000/rds3000_spec.h"
 #include "models/machines/rds3000/rds3000_state.h"
+#include "models/machines/rds3000/activity.h"
 #include "models/parts/ik11b/ik11b_shell.h"
 
 namespace dendro::rds3000 {
@@ -36,6 +38,9 @@ class Engine : public ik11b::Target {
   /// nullptr unless it was asked for, and at levels that keep none.
   virtual const PixelCost* cost() const { return nullptr; }
 
+  /// nullptr unless it was asked for.
+  const ActivityLog* activity() const { return activity_.get(); }
+
   const std::vector<RunInterval>& runs() const { return runs_; }
   const std::vector<MarkEvent>& marks() const { return marks_; }
   bool time_dependent() const { return time_dependent_; }
@@ -46,6 +51,7 @@ class Engine : public ik11b::Target {
   void set_marks(std::map<std::uint32_t, std::string> names) { mark_names_ = std::move(names); }
 
  protected:
+  std::unique_ptr<ActivityLog> activity_;
   std::vector<RunInterval> runs_;
   std::vector<MarkEvent> marks_;
   std::map<std::uint32_t, std::string> mark_names_;

@@ -78,6 +78,8 @@ class TimedMachine : public Machine {
     } else {
       shell_ = std::make_unique<ik11b::Shell>("host", spec_.host, *engine_, host_program);
     }
+    if (options_.activity > 0)
+      shell_->on_busy([this](std::int64_t from, std::int64_t to) { host_busy_.push_back({from, to}); });
     sc_core::sc_start();
     if (shell_->error()) std::rethrow_exception(shell_->error());
     end_ = (shell_->ended_ps() + spec_.processor.tick_ps - 1) / spec_.processor.tick_ps;
@@ -102,29 +104,38 @@ class TimedMachine : public Machine {
   }
   bool time_dependent() const override { return engine_->time_dependent(); }
   Picture picture() const override { return picture_of(engine_->video(), engine_->memory()); }
+  std::vector<ActivitySample> activity() const override;
   PixelCosts costs() const override;
   std::uint32_t peek(std::uint32_t address, unsigned function) const override {
     return peek_at(engine_->processor(), engine_->video(), engine_->memory(), address, function);
   }
 
  private:
+  struct HostBusy {
+    std::int64_t from_ps = 0, to_ps = 0;
+  };
+
+  std::vector<UnitStats> units_of(const Standing& at, std::uint64_t host_busy_ps, std::uint64_t dma_words) const;
+
   Spec spec_;
   MachineOptions options_;
+  std::vector<HostBusy> host_busy_;  ///< in order of time, only with `activity`
   std::unique_ptr<Engine> engine_;
   std::unique_ptr<HostRecorder> host_recorder_;
   std::unique_ptr<ik11b::Shell> shell_;
   std::int64_t end_ = 0;
 };
 
-std::vector<UnitStats> TimedMachine::units() const {
-  const auto total = static_cast<std::uint64_t>(end_);
-  const ProcessorCounters& p = engine_->processor_counters();
-  const BusCounters& b = engine_->bus_counters();
-  const MemoryCounters& m = engine_->memory_counters();
+std::vector<UnitStats> TimedMachine::units_of(const Standing& at, std::uint64_t host_busy_ps,
+                                              std::uint64_t dma_words) const {
+  const auto total = static_cast<std::uint64_t>(at.tick);
+  const ProcessorCounters& p = at.processor;
+  const BusCounters& b = at.bus;
+  const MemoryCounters& m = at.memory;
   const std::uint64_t cards = spec_.memory.cards();
   const std::uint64_t memory_busy = m.busy_access + m.busy_video + m.busy_refresh;
-  const std::uint64_t host_busy = shell_->busy_ps() / static_cast<std::uint64_t>(spec_.processor.tick_ps);
-  std::vector<UnitStats> units{
+  const std::uint64_t host_busy = host_busy_ps / static_cast<std::uint64_t>(spec_.processor.tick_ps);
+  return {
       {"rds3000.processor",
        {{"cycles", total}, {"busy", p.busy}, {"stall_host", p.stall_host}, {"stall_branch", p.stall_branch},
         {"stall_data", p.stall_data}, {"stall_bus", p.stall_bus}, {"stall_scratch", p.stall_scratch},
@@ -139,8 +150,35 @@ std::vector<UnitStats> TimedMachine::units() const {
         {"reads", m.reads}, {"writes", m.writes}, {"masked_writes", m.masked_writes}, {"fetches", m.fetches},
         {"refreshes", m.refreshes}, {"wait_ticks", m.wait_ticks}}},
       {"rds3000.host",
-       {{"cycles", total}, {"busy", host_busy}, {"idle", total - host_busy}, {"dma_words", shell_->dma_words()}}}};
-  return units;
+       {{"cycles", total}, {"busy", host_busy}, {"idle", total - host_busy}, {"dma_words", dma_words}}}};
+}
+
+std::vector<UnitStats> TimedMachine::units() const {
+  return units_of({end_, engine_->processor_counters(), engine_->bus_counters(), engine_->memory_counters()},
+                  shell_->busy_ps(), shell_->dma_words());
+}
+
+std::vector<ActivitySample> TimedMachine::activity() const {
+  if (engine_->activity() == nullptr) return {};
+  std::vector<ActivitySample> samples;
+  std::uint64_t busy_ps = 0;
+  auto busy = host_busy_.begin();
+  for (const Standing& at : engine_->activity()->standings()) {
+    if (at.tick >= end_) break;
+    const std::int64_t to_ps = at.tick * spec_.processor.tick_ps;
+    while (busy != host_busy_.end() && busy->to_ps <= to_ps) {
+      busy_ps += static_cast<std::uint64_t>(busy->to_ps - busy->from_ps);
+      ++busy;
+    }
+    const bool inside = busy != host_busy_.end() && busy->from_ps < to_ps;
+    const std::uint64_t part_ps = inside ? static_cast<std::uint64_t>(to_ps - busy->from_ps) : 0;
+    // How many words the host has moved by then is not kept.
+    std::vector<UnitStats> units = units_of(at, busy_ps + part_ps, 0);
+    units.back().values.pop_back();
+    samples.push_back({at.tick, std::move(units)});
+  }
+  samples.push_back({end_, units()});
+  return samples;
 }
 
 PixelCosts TimedMachine::costs() const {

@@ -55,6 +55,16 @@ class Timing {
 
   const Counters& counters() const { return counters_; }
 
+  /// The counters that a run would have which ended at tick `at`. Every later request must be at `at` - 1 or after.
+  Counters counters_before(std::int64_t at) {
+    // Events that every card takes before `at` count whatever comes later: served here, they are not served again
+    // for the next question.
+    while (next_event_ < at && *std::max_element(free_at_.begin(), free_at_.begin() + cards_) < at) serve(video::kNever);
+    Timing rest = *this;
+    rest.settle(at);
+    return rest.counters_;
+  }
+
   /// All that later grants depend on, next to the Spec: for a trace that begins in the middle.
   struct Standing {
     std::array<std::int64_t, 8> free_at{};                ///< tick from which each card is free

@@ -33,6 +33,7 @@ void Shell::thread() {
 
 void Shell::pause(std::int64_t ps) {
   busy_ps_ += static_cast<std::uint64_t>(ps);
+  if (on_busy_) on_busy_(now_ps(), now_ps() + ps);
   if (ps > 0) sc_core::wait(sc_core::sc_time::from_value(static_cast<std::uint64_t>(ps)));
 }
 

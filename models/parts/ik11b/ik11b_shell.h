@@ -63,6 +63,8 @@ class Shell : public sc_core::sc_module, public HostPort {
 
   std::uint64_t dma_words() const { return dma_words_; }
   std::uint64_t busy_ps() const { return busy_ps_; }
+  /// Called with every stretch of time in which the host is busy, when it begins; set before the run or not at all.
+  void on_busy(std::function<void(std::int64_t from_ps, std::int64_t to_ps)> listener) { on_busy_ = std::move(listener); }
 
  private:
   void thread();
@@ -76,6 +78,7 @@ class Shell : public sc_core::sc_module, public HostPort {
   std::vector<HostPhase> phases_;
   std::int64_t ended_ps_ = 0;
   std::uint64_t dma_words_ = 0, busy_ps_ = 0;
+  std::function<void(std::int64_t, std::int64_t)> on_busy_;
   std::exception_ptr error_;
 };
 

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <map>
 
@@ -105,6 +106,43 @@ TEST(LineChart, AMissingValueLeavesAGap) {
   LineChart chart{"t", {"x", false, {}}, {"y", false, {}}, {{"s", {1, 2, 3, 4, 5}, {1, 1, NAN, 1, 1}}}};
   const auto whole = curve(draw({"t", {"x", false, {}}, {"y", false, {}}, {{"s", {1, 2, 3, 4, 5}, {1, 1, 1, 1, 1}}}}));
   EXPECT_LT(curve(draw(chart)).size(), whole.size() * 3 / 4);
+}
+
+TEST(LineChart, ZeroHasAPlaceLeftOfALogarithmicScaleAndPointsWithLabelsStandAlone) {
+  const LineChart chart{"t", {"x", true, {}, 0.001, 1, "none"}, {"y", true, {}}, {{"s", {0, 0.1}, {10, 10}, {"a", "b"}}}};
+  const auto columns = curve(draw(chart));
+  const int first = columns.begin()->first, last = columns.rbegin()->first;
+  EXPECT_LT(first, 200);
+  EXPECT_GT(last, 500);
+  EXPECT_EQ(24u, columns.size()) << "two squares of 12 pixels, nothing between them";
+}
+
+TEST(LineChart, TheLegendStandsWhereNoCurveIs) {
+  const Colour blue = {31, 119, 180};
+  const std::vector<double> along = {0, 1, 2, 3, 4, 5, 6, 7, 8};
+  for (const auto& curves : {std::pair(std::vector<double>(9, 10), std::vector<double>(9, 9)),  // right of the middle
+                             std::pair(along, std::vector<double>(9, 0))}) {
+    const LineChart two{"t", {"x", false, {}}, {"y", false, {}}, {{"a", along, curves.first}, {"b", along, curves.second}}};
+    const RgbImage image = draw(two);
+    std::map<int, int> columns;
+    for (int x = 0; x < image.width; ++x)
+      for (int y = 0; y < image.height; ++y) columns[x] += at(image, x, y) == blue;
+    int seen = 0;
+    for (const auto& [x, n] : columns) seen += n > 0;
+    EXPECT_LT(700, seen) << "the first curve from its beginning to its end";
+  }
+}
+
+TEST(LineChart, LabelsOfNeighboursDoNotCoverEachOther) {
+  const auto ink_rows = [](double second) {
+    const RgbImage image = draw(LineChart{
+        "t", {"x", true, {}, 1, 100}, {"y", true, {}, 1, 100}, {{"s", {10, 10}, {10, second}, {"XXX", "XXX!"}}}});
+    std::map<int, int> rows;
+    for (int y = 60; y < 470; ++y)
+      for (int x = 510; x < 540; ++x) rows[y] += at(image, x, y) == Colour{40, 40, 40};
+    return std::count_if(rows.begin(), rows.end(), [](const auto& row) { return row.second > 0; });
+  };
+  EXPECT_EQ(ink_rows(40), ink_rows(10)) << "as many rows of letters as when they are far apart";
 }
 
 TEST(HeatMap, CellsStandInTheirPlacesAndMissingOnesAreGrey) {

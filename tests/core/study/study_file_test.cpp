@@ -1,5 +1,6 @@
 #include "sim/study/study_file.h"
 
+#include <cstdio>
 #include <set>
 
 #include "tests/core/study/fake_machine.h"
@@ -81,6 +82,31 @@ TEST_F(StudyFileTest, TheLastAxisVariesFastestAndLevelsSlowest) {
   std::set<std::vector<std::string>> all;
   for (std::size_t i = 0; i < 6; ++i) all.insert(s.settings_of(i));
   EXPECT_EQ(6u, all.size()) << "every combination once";
+}
+
+TEST_F(StudyFileTest, ValuesMayHaveNames) {
+  const Study s = study("[[axis]]\nkey = \"a\"\nvalues = [2, 8]\nnames = [\"16x16\", \"8x8\"]\n");
+  EXPECT_EQ("8x8", s.axes[0].text_of(1));
+  EXPECT_EQ((std::vector<std::string>{"a=8"}), s.settings_of(1));
+  EXPECT_FALSE(s.axes[0].numeric()) << "one beside the other in pictures";
+  EXPECT_NE(std::string::npos, axis_error("values = [1, 2]\nnames = [\"x\"]\n").find("1 names for 2 values"));
+  EXPECT_NE(std::string::npos, axis_error("values = [1, 2]\nnames = [\"x\", \"x\"]\n").find("there twice"));
+}
+
+TEST_F(StudyFileTest, ANarrowerMultiplierTakesTheTicksOfItsPartialProducts) {
+  const Study s = load_study("multiplier-width", false);
+  const StudyAxis& axis = s.axes.at(0);
+  ASSERT_EQ("parameters.processor.multiply_ticks", axis.key);
+  for (std::size_t i = 0; i < axis.values.size(); ++i) {
+    int a = 0, b = 0;
+    ASSERT_EQ(2, std::sscanf(axis.text_of(i).c_str(), "%dx%d", &a, &b));
+    EXPECT_EQ(2 * (16 / a) * (16 / b), std::get<std::int64_t>(axis.values[i])) << axis.text_of(i);
+  }
+}
+
+TEST_F(StudyFileTest, PointsOfARangeAreRoundNumbers) {
+  const Study s = study("[[axis]]\nkey = \"a\"\nfrom = 2.2\nto = 7.0\nstep = 0.8\n");
+  EXPECT_EQ("a=3.8", s.settings_of(2).back());
 }
 
 TEST_F(StudyFileTest, AnUnknownStudyNamesTheNearest) {
