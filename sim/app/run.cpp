@@ -63,6 +63,7 @@ int run(const study::Catalogue& catalogue, Options options) {
   request.options.vcd_file = waveform.work();
   if (!options.timeline.empty()) request.options.activity = study::kTimelineWindows;
   study::Progress progress(options.progress);
+  study::expect_ticks(request, progress);
   study::RunOutput output =
       folder.writing([&] { return study::execute_in_worker(request, folder.work(), &progress); });
   progress.clear();

@@ -26,22 +26,12 @@ int list_studies() {
   return kGood;
 }
 
-/// A picture appears whole or not at all, as the other files do.
-void write_picture(const std::string& path, const scene::RgbImage& image) {
-  const std::string work = path + ".partial.png";
-  scene::write_png(work, image);
-  if (std::rename(work.c_str(), path.c_str()) != 0) {
-    std::remove(work.c_str());
-    throw UserError(path, 0, "", "cannot write here");
-  }
-}
-
 void write_files(const study::Study& study, const study::SweepOutcome& outcome, const std::string& folder) {
   study::OutputFile csv(folder + "/results.csv");
   csv.commit(study::sweep_csv(study, outcome.rows));
   if (!study::has_picture(study)) return;
   for (const std::string& output : study.outputs)
-    write_picture(folder + "/" + output + ".png", study::sweep_picture(study, outcome.rows, output));
+    study::write_picture(folder + "/" + output + ".png", study::sweep_picture(study, outcome.rows, output));
 }
 
 int sweep(const study::Catalogue& catalogue, const Options& options) {

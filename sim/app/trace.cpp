@@ -6,6 +6,7 @@
 #include <cstdio>
 #include <memory>
 
+#include "sim/app/arguments.h"
 #include "sim/app/commands.h"
 #include "sim/base/error.h"
 #include "sim/study/run_folder.h"
@@ -43,7 +44,7 @@ int record(const study::Catalogue& catalogue, RecordOptions options) {
 
 struct ReplayOptions {
   study::ReplayArguments replay;
-  std::string json;
+  std::string json, picture;
   bool print = false, quiet = false;
 };
 
@@ -66,6 +67,8 @@ int replay(const study::Catalogue& catalogue, const ReplayOptions& options) {
   study::OutputFile json(options.json);
   const study::ReplayOutput output = study::replay_trace(catalogue, options.replay);
   if (options.print) print_trace(catalogue, options.replay.trace);
+  if (!options.picture.empty())
+    study::write_picture(options.picture, study::trace_picture(catalogue, options.replay.trace));
   json.commit(study::replay_json(output));
   std::fflush(stdout);
   if (output.result.difference) {
@@ -106,6 +109,7 @@ void add_replay(CLI::App& app, const study::Catalogue& catalogue, Action& action
   command->add_option("--level", o->replay.level, "cycle or clocked");
   command->add_option("--set", o->replay.settings, "key=value of the machine")->allow_extra_args(false);
   command->add_option("--json", o->json, "also write the result here; - is standard output");
+  command->add_option("--picture", o->picture, "also draw the operations over time, as PNG")->check(some_text());
   command->add_flag("--print", o->print, "print the trace as text");
   command->add_flag("--quiet", o->quiet, "print no summary");
   command->callback([&catalogue, &action, o] { action = [&catalogue, o] { return replay(catalogue, *o); }; });

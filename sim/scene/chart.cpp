@@ -121,7 +121,7 @@ void draw_y_axis(Canvas& canvas, const Scale& scale, const ChartAxis& axis, int 
     const int y = static_cast<int>(std::lround(scale.at(mark)));
     if (grid) canvas.line(left, y, right, y, kGrid);
     canvas.line(left - 5, y, left, y, kInk);
-    const std::string text = cut(mark_text(mark, axis), left - 40, 2);
+    const std::string text = cut(mark_text(mark, axis), left - (axis.label.empty() ? 12 : 40), 2);
     canvas.text(left - 10 - Canvas::text_width(text), y - Canvas::text_height() / 2, text, kInk);
   }
   const int middle = static_cast<int>((scale.from + scale.to) / 2);

@@ -79,6 +79,8 @@ std::vector<LevelRow> compare_levels(const Catalogue& catalogue, const RunArgume
                                      std::max(0.0, budget - spent));
     } else {
       request.level = level;
+      // `clocked` takes the ticks that `cycle` took.
+      if (progress) progress->expect(level == Level::kClocked && before ? before->object.cycles : 0);
       made.output = execute_in_worker(request, "", progress);
       made.row.host_seconds = made.output->object.host.seconds;
       made.row.cycles = made.output->object.cycles;

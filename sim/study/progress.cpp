@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cstdio>
 
 #include "sim/stats/run_object.h"
@@ -42,11 +43,18 @@ void Progress::show(const std::string& text) {
 void Progress::tick(std::int64_t tick, const std::function<std::string()>& machine_phase) {
   if (!due()) return;
   const std::string own = machine_phase && phase_ == kMachine ? machine_phase() : "";
-  const double host = seconds_since(started_);
-  const double rate = host > 0 ? static_cast<double>(tick) / host : 0;
-  show(fmt::format("{}: {}, {} simulated, {:.3g} million ticks a second", name_, own.empty() ? phase_ : own,
-                   clock_hz_ > 0 ? stats::readable_seconds(static_cast<double>(tick) / clock_hz_) : "",
-                   rate / 1e6));
+  show(progress_line({name_, own.empty() ? phase_ : own, tick, expected_, clock_hz_, seconds_since(started_)}));
+}
+
+std::string progress_line(const RunProgress& run) {
+  const auto tick = static_cast<double>(run.tick), all = static_cast<double>(run.expected);
+  const double rate = run.host_seconds > 0 ? tick / run.host_seconds : 0;
+  std::string line = run.name + ": " + run.phase;
+  if (all > 0) line += fmt::format(", {:.0f} %", 100 * std::min(tick / all, 1.0));
+  if (run.clock_hz > 0) line += fmt::format(", {} simulated", stats::readable_seconds(tick / run.clock_hz));
+  line += fmt::format(", {:.3g} million ticks a second", rate / 1e6);
+  if (all > 0 && rate > 0) line += fmt::format(", {:.0f} s left", std::max(all - tick, 0.0) / rate);
+  return line;
 }
 
 void Progress::runs(const std::string& name, std::size_t done, std::size_t total) {

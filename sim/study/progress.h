@@ -9,6 +9,16 @@
 
 namespace dendro::study {
 
+/// What is known of a run that is under way.
+struct RunProgress {
+  std::string name, phase;
+  std::int64_t tick = 0, expected = 0;  ///< expected 0: unknown
+  double clock_hz = 0, host_seconds = 0;
+};
+
+/// Phase, share done, simulated time, speed and time left, the latter two as far as they are known.
+std::string progress_line(const RunProgress& run);
+
 /// One line on a terminal that says how far long work is; silent into a pipe.
 class Progress {
  public:
@@ -18,6 +28,8 @@ class Progress {
   bool enabled() const { return enabled_; }
   /// The clock of the run that is shown from here on.
   void start_run(const std::string& name, double clock_hz);
+  /// The run will take so many ticks, known from a faster level that is exact; 0: nobody knows.
+  void expect(std::int64_t ticks) { expected_ = ticks; }
   void phase(const std::string& name) { phase_ = name; }
   /// The host waits: the machine's own phases are shown until the host begins one.
   void machine_runs() { phase_ = kMachine; }
@@ -38,6 +50,7 @@ class Progress {
   bool enabled_ = false;
   std::string name_, phase_;
   double clock_hz_ = 0;
+  std::int64_t expected_ = 0;
   std::chrono::steady_clock::time_point started_, shown_, runs_started_;
 };
 

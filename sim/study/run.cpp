@@ -324,6 +324,18 @@ stats::RunObject describe_machine(const Machine& machine, double seconds) {
   return object;
 }
 
+void expect_ticks(const RunRequest& request, Progress& progress) {
+  const auto& levels = request.type->levels;
+  const bool told = std::find(levels.begin(), levels.end(), Level::kCycle) != levels.end();
+  if (!progress.enabled() || request.level != Level::kClocked || !told) return;
+  RunRequest fast = request;
+  fast.level = Level::kCycle;
+  fast.with_picture = false;
+  fast.options = {};
+  fast.options.tick_limit = request.options.tick_limit;
+  progress.expect(execute_in_worker(fast, "", nullptr).object.cycles);
+}
+
 RunOutput execute_in_worker(const RunRequest& request, const std::string& folder, Progress* progress) {
   return from_bytes(run_in_worker([&] { return to_bytes(execute(request, folder, progress)); }));
 }

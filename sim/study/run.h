@@ -64,6 +64,9 @@ void check_run(const RunRequest& request);
 /// elaborates SystemC: once per process. Throws UserError.
 RunOutput execute(const RunRequest& request, const std::string& folder, Progress* progress);
 
+/// Tells a visible progress line how many ticks the run will take, if a level that is exact and far faster can say so.
+void expect_ticks(const RunRequest& request, Progress& progress);
+
 /// execute() in a process of its own.
 RunOutput execute_in_worker(const RunRequest& request, const std::string& folder, Progress* progress);
 

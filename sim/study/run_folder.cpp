@@ -118,6 +118,16 @@ void RunFolder::commit() {
   committed_ = true;
 }
 
+void write_picture(const std::string& path, const scene::RgbImage& image) {
+  const std::string work = fmt::format("{}.partial-{}.png", path, ::getpid());
+  try {
+    scene::write_png(work, image);
+  } catch (const UserError&) {
+    cannot_write(path, kFull);
+  }
+  rename_over(work, path);
+}
+
 OutputFile::OutputFile(const std::string& path) : path_(path) {
   if (path_.empty() || path_ == "-") return;
   std::error_code error;

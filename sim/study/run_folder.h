@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "sim/base/error.h"
+#include "sim/scene/image_io.h"
 
 namespace dendro::study {
 
@@ -42,6 +43,9 @@ class RunFolder {
   std::vector<std::string> made_;  // folders above, outermost first
   bool committed_ = false;
 };
+
+/// A picture as PNG that appears whole or not at all. Throws UserError.
+void write_picture(const std::string& path, const scene::RgbImage& image);
 
 /// A single output file that appears whole or not at all; a device or pipe is written to directly. "-" is
 /// standard output.

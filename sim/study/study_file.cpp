@@ -69,6 +69,8 @@ std::vector<Value> listed(TableReader& reader, bool many) {
   std::vector<Value> values;
   for (const Node& item : list->items) {
     if (item.kind != Node::Kind::kValue) reader.fail("values", "every item must be a number, a word, true or false");
+    const auto* real = std::get_if<double>(&item.value);
+    if (real != nullptr && !std::isfinite(*real)) reader.fail("values", "every number must be finite");
     values.push_back(item.value);
   }
   return values;

@@ -166,8 +166,8 @@ class Sweeper {
                         : row_of(open.request, from_bytes(outcome.bytes), git_);
     // Two points may be the same run: a parameter and the one that follows it, say.
     if (!results_.has(open.key)) results_.store(open.key, row, study_.settings_of(open.run));
-    check_outputs(study_, row);
     ++outcome_.made;
+    check_outputs(study_, row);
     show();
   }
 

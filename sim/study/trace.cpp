@@ -162,6 +162,11 @@ ReplayOutput replay_trace(const Catalogue& catalogue, const ReplayArguments& arg
   return output;
 }
 
+scene::RgbImage trace_picture(const Catalogue& catalogue, const std::string& path) {
+  const auto trace = open_trace(catalogue, path);
+  return trace_picture(*trace, *find_boundary(type_of(catalogue, *trace), trace->header().boundary));
+}
+
 std::string replay_json(const ReplayOutput& output) {
   Json json = {{"schema", 1}, {"command", "replay"}, {"unit", output.unit}, {"machine", output.machine}, {"level", output.level}};
   json["transactions"] = output.result.transactions;

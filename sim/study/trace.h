@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "sim/scene/image_io.h"
 #include "sim/study/exec.h"
 #include "sim/study/run.h"
 #include "sim/trace/trace_file.h"
@@ -44,6 +45,12 @@ std::unique_ptr<trace::Reader> open_trace(const Catalogue& catalogue, const std:
 
 /// Drives the unit alone, in a worker process. Throws UserError.
 ReplayOutput replay_trace(const Catalogue& catalogue, const ReplayArguments& arguments);
+
+/// A bar for every operation of a trace that takes time, from the tick of its record to its completion, as the trace says;
+/// a row for each kind. Long traces: the beginning.
+scene::RgbImage trace_picture(trace::Reader& trace, const trace::Boundary& boundary);
+/// The same of a file. Throws UserError.
+scene::RgbImage trace_picture(const Catalogue& catalogue, const std::string& path);
 
 std::string replay_json(const ReplayOutput& output);
 

@@ -32,6 +32,18 @@ TEST_F(TraceCommands, WhatWasRecordedReplaysInBothFormsAndAtBothLevels) {
   }
 }
 
+TEST_F(TraceCommands, APictureShowsTheOperationsOverTime) {
+  write("t.txt", kTrace);
+  write("p.gia", kProgram);
+  ASSERT_EQ(0, dendro("record --exec rds3000 p.gia --boundary rds3000.processor --out p.trace").status);
+  for (const std::string name : {"t.txt", "p.trace"}) {
+    EXPECT_EQ(0, dendro("replay " + name + " --quiet --picture " + name + ".png").status);
+    EXPECT_EQ(0u, read(name + ".png").find("\x89PNG"));
+  }
+  EXPECT_NE(read("t.txt.png"), read("p.trace.png"));
+  expect_user_error("replay t.txt --picture nowhere/p.png", "nowhere/p.png: cannot write here: ");
+}
+
 TEST_F(TraceCommands, AReplayReportsItsUnitAndCounts) {
   write("t.txt", kTrace);
   const auto json = nlohmann::json::parse(dendro("replay t.txt --json -").out);

@@ -84,7 +84,10 @@ class ClockedProcessor {
     std::uint16_t imm;
   };
 
+  // clocked_processor.cpp
   void decode(std::uint32_t index, Word& word) const;
+
+  // clocked_word.cpp: what one word does
   void execute(const Word& w, std::int64_t n, const ClockedSignals& in);
   std::uint32_t d_bus(const Word& w) const;
   bool condition(unsigned cond, const ClockedSignals& in) const;

@@ -5,6 +5,7 @@
 #include "models/machines/rds3000/clocked_cards.h"
 #include "models/machines/rds3000/clocked_display.h"
 #include "models/machines/rds3000/devices.h"
+#include "models/machines/rds3000/replay_unit.h"
 #include "models/parts/bps32/bps32_isa.h"
 #include "models/parts/dr64/dr64_timing.h"
 #include "sim/trace/digest.h"
@@ -52,7 +53,7 @@ class CycleMemory : public MemoryTime {
     return timing_.grant(tick, work, write);
   }
   void restart(std::int64_t tick, const video::Raster& raster) override {
-    timing_.settle(tick + 1);
+    timing_.catch_up(tick + 1);
     timing_.set_fetches({raster, tick * tick_ps_, tick * tick_ps_, tick_ps_});
   }
 
@@ -133,9 +134,7 @@ class MemoryReplay {
       time_ = std::make_unique<CycleMemory>(spec);
   }
 
-  void take(const Record& record) {
-    const std::int64_t at = replayer_.tick_of(record);
-    if (first_ < 0) first_ = at;
+  void take(const Record& record, std::int64_t at) {
     if (record.op == "read" || record.op == "write")
       access(record, at, record.op == "write");
     else if (record.op == "display")
@@ -147,7 +146,6 @@ class MemoryReplay {
     else
       set(record, at);
   }
-  std::int64_t cycles() const { return std::max<std::int64_t>(0, replayer_.completed() - std::max<std::int64_t>(first_, 0)); }
 
  private:
   // The bus gives the cards one access at a time: one that asks earlier waits for its turn.
@@ -229,18 +227,14 @@ class MemoryReplay {
   dr64::Core core_;
   video::State video_;
   std::unique_ptr<MemoryTime> time_;
-  std::int64_t turn_ = 0, first_ = -1;
+  std::int64_t turn_ = 0;
   bool moving_ = false;
 };
 
 }  // namespace
 
 trace::ReplayResult replay_memory(const Spec& spec, Level level, trace::Reader& trace) {
-  Replayer replayer(trace, INT64_MAX / 16 / spec.processor.tick_ps);
-  MemoryReplay unit(spec, level, replayer);
-  trace::ReplayResult result = replayer.run([&](const Record& record) { unit.take(record); });
-  result.cycles = unit.cycles();
-  return result;
+  return replay_unit<MemoryReplay>(spec, level, trace);
 }
 
 }  // namespace dendro::rds3000

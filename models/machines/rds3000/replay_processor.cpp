@@ -6,6 +6,7 @@
 #include "models/machines/rds3000/boundaries.h"
 #include "models/machines/rds3000/devices.h"
 #include "models/machines/rds3000/recorder.h"
+#include "models/machines/rds3000/replay_unit.h"
 #include "models/parts/bps32/bps32.h"
 #include "sim/trace/digest.h"
 #include "sim/trace/replayer.h"
@@ -32,9 +33,7 @@ class ProcessorReplay {
     unit_->display(-1, {raster, -spec.video.phase_ps});
   }
 
-  void take(const Record& record) {
-    const std::int64_t at = replayer_.tick_of(record);
-    if (first_ < 0) first_ = at;
+  void take(const Record& record, std::int64_t at) {
     if (record.op.compare(0, 3, "set") == 0) {
       set(record, at);
       return;
@@ -53,7 +52,6 @@ class ProcessorReplay {
     else
       host(record, at);
   }
-  std::int64_t cycles() const { return std::max<std::int64_t>(0, replayer_.completed() - std::max<std::int64_t>(first_, 0)); }
 
  private:
   void set(const Record& record, std::int64_t at) {
@@ -176,18 +174,14 @@ class ProcessorReplay {
   Replayer& replayer_;
   ProcessorState initial_;
   std::unique_ptr<ProcessorUnit> unit_;
-  std::int64_t base_ = -1, first_ = -1;
+  std::int64_t base_ = -1;
   bool loaded_ = false;
 };
 
 }  // namespace
 
 trace::ReplayResult replay_processor(const Spec& spec, Level level, trace::Reader& trace) {
-  Replayer replayer(trace, INT64_MAX / 16 / spec.processor.tick_ps);
-  ProcessorReplay unit(spec, level, replayer);
-  trace::ReplayResult result = replayer.run([&](const Record& record) { unit.take(record); });
-  result.cycles = unit.cycles();
-  return result;
+  return replay_unit<ProcessorReplay>(spec, level, trace);
 }
 
 }  // namespace dendro::rds3000

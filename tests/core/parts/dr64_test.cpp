@@ -2,6 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
+#include <random>
+#include <vector>
+
 #include "models/parts/bps32/bps32_isa.h"
 #include "models/parts/dr64/dr64_timing.h"
 
@@ -95,6 +99,80 @@ TEST(Dr64Timing, RefreshTakesEveryCardBeforeAnAccessOfTheSameTick) {
   EXPECT_EQ(timing.grant(9, all, false), 9);
   EXPECT_EQ(timing.grant(20, all, false), 22);
   EXPECT_EQ(timing.counters().refreshes, 6u);
+}
+
+/// Cards with refreshes and fetches that often wait for accesses, and a seeded stream of accesses.
+struct Busy {
+  Spec spec;
+  static constexpr std::int64_t kTick = 200000;
+
+  Busy() {
+    spec.card_busy_ticks = 7;
+    spec.fetch_ticks = 3;
+    spec.refresh_interval_ps = 11 * kTick + 70000;
+  }
+  Timing timing() const {
+    Timing timing(spec, kTick);
+    timing.set_fetches({raster(), 0, 0, kTick});
+    return timing;
+  }
+  static video::Raster raster() {
+    video::Raster raster;
+    raster.line_ps = 97 * kTick + 30000;
+    raster.field_lines = 5;
+    raster.blank_lines = 1;
+    raster.fetches_per_line = 4;
+    raster.fetch_period_ps = 13 * kTick;
+    return raster;
+  }
+  /// Calls between(tick) before every access, tick never after the access's request.
+  template <class Between>
+  static std::vector<std::int64_t> drive(Timing& timing, unsigned seed, const Between& between) {
+    std::mt19937 random(seed);
+    std::vector<std::int64_t> granted;
+    std::int64_t at = 0;
+    for (int i = 0; i < 300; ++i) {
+      at += 1 + random() % 12;
+      between(at);
+      at = timing.grant(at, {true, 1u + static_cast<unsigned>(random() % 7), random() % 4 == 0}, random() % 2 == 0);
+      granted.push_back(at);
+    }
+    return granted;
+  }
+};
+
+std::array<std::uint64_t, 6> numbers(const Counters& c) {
+  return {c.busy_access, c.busy_video, c.busy_refresh, c.fetches, c.refreshes, c.wait_ticks};
+}
+
+TEST(Dr64Timing, CatchingUpInTheMiddleLosesNoCount) {
+  const Busy busy;
+  for (unsigned seed = 0; seed < 20; ++seed) {
+    Timing plain = busy.timing(), caught = busy.timing(), settled = busy.timing();
+    const auto grants = Busy::drive(plain, seed, [](std::int64_t) {});
+    EXPECT_EQ(grants, Busy::drive(caught, seed, [&](std::int64_t tick) { caught.catch_up(tick); }));
+    EXPECT_EQ(grants, Busy::drive(settled, seed, [&](std::int64_t tick) { settled.settle(tick); }));
+    for (Timing* timing : {&plain, &caught, &settled}) timing->settle(grants.back() + 40);
+    EXPECT_EQ(numbers(plain.counters()), numbers(caught.counters()));
+    EXPECT_GT(plain.counters().busy_video + plain.counters().busy_refresh,
+              settled.counters().busy_video + settled.counters().busy_refresh)
+        << "settle() is for the end of a run alone";
+  }
+}
+
+TEST(Dr64Timing, TheCountersBeforeATickAreThoseOfARunThatEndsThereAndAskingChangesNothing) {
+  const Busy busy;
+  for (unsigned seed = 0; seed < 20; ++seed) {
+    Timing plain = busy.timing(), asked = busy.timing();
+    const auto grants = Busy::drive(plain, seed, [](std::int64_t) {});
+    EXPECT_EQ(grants, Busy::drive(asked, seed, [&](std::int64_t tick) {
+                Timing ends = asked;
+                ends.settle(tick);
+                EXPECT_EQ(numbers(ends.counters()), numbers(asked.counters_before(tick)));
+              }));
+    for (Timing* timing : {&plain, &asked}) timing->settle(grants.back() + 40);
+    EXPECT_EQ(numbers(plain.counters()), numbers(asked.counters()));
+  }
 }
 
 }  // namespace

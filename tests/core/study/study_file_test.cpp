@@ -104,6 +104,11 @@ TEST_F(StudyFileTest, ANarrowerMultiplierTakesTheTicksOfItsPartialProducts) {
   }
 }
 
+TEST_F(StudyFileTest, EveryValueIsFinite) {
+  for (const char* list : {"values = [1.0, nan]\n", "values = [inf]\n"})
+    EXPECT_NE(std::string::npos, axis_error(list).find("must be finite")) << list;
+}
+
 TEST_F(StudyFileTest, PointsOfARangeAreRoundNumbers) {
   const Study s = study("[[axis]]\nkey = \"a\"\nfrom = 2.2\nto = 7.0\nstep = 0.8\n");
   EXPECT_EQ("a=3.8", s.settings_of(2).back());
