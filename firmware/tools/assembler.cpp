@@ -139,10 +139,8 @@ void check_entry(const Program& program) {
                   fmt::format("the entry {} lies behind the last word", entry_of(program)));
 }
 
-}  // namespace
-
-Assembly assemble(std::string_view source, const std::string& file_name, const AssembleOptions& options) {
-  check_options(options);
+Assembly assemble_expanded(const std::string& source, const std::string& file_name,
+                           const AssembleOptions& options) {
   Program program = parse_program(source, file_name, options.scratch_words);
   check_entry(program);
   const std::vector<std::uint32_t> pool = place_pool(program, options.scratch_words);
@@ -176,6 +174,19 @@ Assembly assemble(std::string_view source, const std::string& file_name, const A
   a.ucode.scratch = program.scratch;
   a.ucode.scratch_data = program.scratch_data;
   return a;
+}
+
+}  // namespace
+
+Assembly assemble(std::string_view source, const std::string& file_name, const AssembleOptions& options) {
+  check_options(options);
+  const ExpandedSource expanded = expand_includes(source, file_name, options.include);
+  try {
+    return assemble_expanded(expanded.text, file_name, options);
+  } catch (const SourceError& error) {
+    const auto [file, line] = expanded.origin(error.line());
+    throw SourceError(file, line, error.column(), error.message());
+  }
 }
 
 }  // namespace dendro::tools

@@ -4,6 +4,7 @@
 #include <string_view>
 #include <vector>
 
+#include "firmware/tools/gia_include.h"
 #include "firmware/tools/ucode.h"
 
 /// The microassembler of the BPS32. docs/microassembler.md describes the language.
@@ -17,13 +18,14 @@ struct AssembleOptions {
   /// early; without it that is an error. A source that branches to numbers cannot be filled.
   bool fill_products = false;
   unsigned control_words = 4096;  ///< words that a program may have, at most one page of 4,096
+  IncludeReader include;          ///< finds what the source includes; empty: nothing can be included
 };
 
 /// An assembled program with what a listing needs.
 struct Assembly {
   Ucode ucode;
   std::string file;                     ///< name of the source
-  std::vector<std::string> source;      ///< its lines
+  std::vector<std::string> source;      ///< its lines, those of included files behind them
   std::vector<std::vector<int>> lines;  ///< per word: the source lines (from 1) it was made of, ascending
 };
 

@@ -9,6 +9,7 @@
 #include "sim/app/commands.h"
 #include "sim/base/error.h"
 #include "sim/config/document.h"
+#include "sim/study/algorithms.h"
 #include "sim/study/run_folder.h"
 
 namespace dendro::app {
@@ -30,8 +31,10 @@ int assemble(const Options& options) {
   refuse_same_file("--listing", options.listing, "the source", options.in);
   refuse_same_file("--listing", options.listing, "--out", options.out);
   study::OutputFile out(options.out), listing(options.listing);
+  tools::AssembleOptions settings = options.assemble;
+  settings.include = study::include_beside(options.in);
   const tools::Assembly assembly =
-      tools::assemble(config::read_text({false, options.in}, {}), options.in, options.assemble);
+      tools::assemble(config::read_text({false, options.in}, {}), options.in, settings);
   out.commit(tools::write_ucode(assembly.ucode));
   if (!options.listing.empty()) listing.commit(tools::listing(assembly));
   return kGood;

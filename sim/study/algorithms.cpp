@@ -1,6 +1,7 @@
 #include "sim/study/algorithms.h"
 
 #include <algorithm>
+#include <filesystem>
 
 #include "firmware/half_space/job.h"
 #include "firmware/tools/assembler.h"
@@ -9,6 +10,7 @@
 #include "sim/base/embedded.h"
 #include "sim/base/error.h"
 #include "sim/base/sha256.h"
+#include "sim/config/document.h"
 
 namespace dendro::study {
 std::int64_t integer_of(const config::ParameterSet& parameters, const std::string& key) {
@@ -16,6 +18,19 @@ std::int64_t integer_of(const config::ParameterSet& parameters, const std::strin
   if (p == nullptr || !std::holds_alternative<std::int64_t>(p->value))
     throw UserError("", 0, key, "this parameter of the machine is missing or no integer");
   return std::get<std::int64_t>(p->value);
+}
+
+std::optional<std::string> shipped_include(const std::string& path) {
+  const std::string* text = base::embedded_file(path);
+  return text == nullptr ? std::nullopt : std::optional(*text);
+}
+
+tools::IncludeReader include_beside(const std::string& source) {
+  return [folder = std::filesystem::path(source).parent_path()](const std::string& path) {
+    const std::filesystem::path beside = folder / path;
+    if (!std::filesystem::is_regular_file(beside)) return shipped_include(path);
+    return std::optional(config::read_text({false, beside.string()}, {}));
+  };
 }
 
 namespace {
@@ -33,9 +48,10 @@ constexpr Source kHulls = {"hulls", "rds3000", "firmware/half_space/rds3000/hull
 const Source kSources[] = {kHalfSpace, kHulls};
 const char* const kPacks[] = {"none", "full"};
 
-tools::Assembly assemble_source(const Source& source, const tools::AssembleOptions& options) {
+tools::Assembly assemble_source(const Source& source, tools::AssembleOptions options) {
   const std::string* text = base::embedded_file(source.path);
   DENDRO_CHECK(text != nullptr, "{}", source.path);
+  options.include = shipped_include;
   return tools::assemble(*text, source.path, options);
 }
 

@@ -2,11 +2,13 @@
 
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "firmware/job.h"
 #include "firmware/lib/rds3000/rds_driver.h"
+#include "firmware/tools/gia_include.h"
 #include "firmware/tools/ucode.h"
 #include "models/machines/machine.h"
 #include "sim/config/parameters.h"
@@ -31,6 +33,12 @@ const std::vector<Algorithm>& algorithms();
 
 /// An integer parameter of a machine. Throws UserError naming the key when it is missing or of another type.
 std::int64_t integer_of(const config::ParameterSet& parameters, const std::string& key);
+
+/// Finds an included file among the microcode that ships with dendro, by its path from the repository's root.
+std::optional<std::string> shipped_include(const std::string& path);
+
+/// The same for a user's source: beside it first.
+tools::IncludeReader include_beside(const std::string& source);
 
 /// The half-space program as it is assembled for a machine with these parameters. Throws UserError.
 tools::Ucode half_space_program(const config::ParameterSet& parameters);

@@ -9,6 +9,7 @@
 #include "firmware/tools/assembler.h"
 #include "firmware/tools/ucode.h"
 #include "sim/base/error.h"
+#include "sim/study/algorithms.h"
 #include "sim/study/worker.h"
 
 namespace dendro::study {
@@ -32,6 +33,7 @@ tools::Ucode load_ucode(const ExecArguments& arguments, const config::ParameterS
     tools::AssembleOptions options;
     options.multiply_ticks = multiply_ticks;
     options.scratch_words = static_cast<unsigned>(integer_of(parameters, "processor.scratch_words"));
+    options.include = include_beside(path);
     return tools::assemble(text, path, options).ucode;
   }
   tools::Ucode ucode = tools::read_ucode(text, path);

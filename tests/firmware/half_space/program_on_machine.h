@@ -1,0 +1,67 @@
+#pragma once
+
+#include <fstream>
+#include <functional>
+#include <iterator>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "firmware/lib/rds3000/rds_driver.h"
+#include "firmware/tools/assembler.h"
+#include "models/machines/rds3000/function.h"
+#include "models/parts/bps32/bps32_isa.h"
+
+namespace dendro::half_space::testing_programs {
+
+constexpr int kFrame = 512;
+
+inline std::string text_of(const std::string& path) {
+  std::ifstream in(path);
+  if (!in) throw std::runtime_error("cannot read " + path);
+  return {std::istreambuf_iterator<char>(in), {}};
+}
+
+/// A shipped microprogram, by its path below the repository's root.
+inline lib::ProgramImage assembled(const std::string& path, const std::string& pack) {
+  tools::AssembleOptions options;
+  options.pack = pack;
+  options.include = [](const std::string& included) {
+    return std::optional(text_of(SOURCE_ROOT "/" + included));
+  };
+  const tools::Ucode ucode = tools::assemble(text_of(SOURCE_ROOT "/" + path), path, options).ucode;
+  lib::ProgramImage image;
+  image.words = ucode.words;
+  image.entry = ucode.entry;
+  for (const auto& [name, area] : ucode.scratch) image.scratch[name] = {area.address, area.size};
+  image.initial_scratch = ucode.scratch_data;
+  return image;
+}
+
+/// 512 x 512 pixel words, rows top down.
+using Frame = std::vector<std::uint32_t>;
+
+inline void put_frame(HostPort& host, const Frame& frame) {
+  for (std::uint32_t y = 0; y < kFrame; ++y)
+    host.dma_to(y << 11, &frame[y * kFrame], kFrame, bps32::kFnLores, 2);
+}
+
+/// The frame after `program` has run on a machine with `cards` cards and `before` in its image memory.
+inline Frame frame_after(const Frame& before, const lib::ProgramImage& image, unsigned cards,
+                         const std::function<void(lib::RdsDriver&)>& program) {
+  rds3000::Spec spec;
+  spec.memory.cards_per_bank = cards;
+  MachineOptions options;
+  options.tick_limit = 2'000'000'000;
+  rds3000::FunctionEngine machine(spec, options);
+  put_frame(machine, before);
+  lib::RdsDriver driver(machine);
+  driver.load_program(image);
+  program(driver);
+  Frame after(before.size());
+  for (std::uint32_t y = 0; y < kFrame; ++y)
+    machine.dma_from(y << 11, &after[y * kFrame], kFrame, bps32::kFnLores, 2);
+  return after;
+}
+
+}  // namespace dendro::half_space::testing_programs
