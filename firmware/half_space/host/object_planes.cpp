@@ -60,15 +60,20 @@ scene::PlaneSet mesh_planes(const scene::Object& object, scene::Options& options
 scene::PlaneSet listed_planes(const scene::Object& object) {
   scene::PlaneSet planes;
   for (const scene::PlaneEntry& entry : object.planes) {
-    const glm::dvec3 normal(entry.normal[0], entry.normal[1], entry.normal[2]);
-    const double length = glm::length(normal);
-    if (!(length > 0) || !std::isfinite(length) || !std::isfinite(entry.offset))
+    const double largest =
+        std::max({std::abs(entry.normal[0]), std::abs(entry.normal[1]), std::abs(entry.normal[2])});
+    // A power of two, which rounds nothing, keeps the squares of very small and large numbers in a double.
+    const int exponent = largest > 0 && std::isfinite(largest) ? std::ilogb(largest) : 0;
+    const auto scaled = [&](double value) { return std::scalbn(value, -exponent); };
+    const glm::dvec3 normal(scaled(entry.normal[0]), scaled(entry.normal[1]), scaled(entry.normal[2]));
+    const double length = glm::length(normal), offset = scaled(entry.offset) / length;
+    if (!(length > 0) || !std::isfinite(length) || !std::isfinite(offset))
       blame(object, "object.planes",
             fmt::format("plane {}: the normal must be finite and not zero and the offset "
                         "finite",
                         planes.size() + 1));
     // A unit axis keeps its exact zeros and ones, which makes edge-on planes exactly edge-on.
-    planes.push_back({normal / length, entry.offset / length});
+    planes.push_back({normal / length, offset});
   }
   return planes;
 }

@@ -9,6 +9,8 @@ std::vector<stability::Case> stability_cases() {
       {"N-A3", "planes exactly edge-on are exact half-plane tests", edge_on_planes},
       {"N-A4", "depth registers of 6 to 24 bits: pixels lost at the silhouette", register_width},
       {"N-A5", "front = back, coincident duplicates, permuted planes", ties},
+      {"N-A6", "third register: depths beyond 8 bits, hulls that touch exactly", third_register},
+      {"N-A9", "splitting: right angles, tails of gauss(), normals without length", splitting},
       {"N-A10", "corner cases of the 16x16 multiplier", multiplier},
       {"X1", "permute the planes inside a pass", permuted_planes},
       {"X2", "rotate by 90 degrees about the view axis", quarter_turn},
