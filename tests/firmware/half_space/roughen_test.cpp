@@ -46,7 +46,7 @@ Box random_box(std::mt19937& random) {
 
 Frame roughened(const Frame& before, const Roughening& roughening, const std::string& pack) {
   const lib::ProgramImage image = assembled(kProgram, pack);
-  return frame_after(before, image, 3,
+  return frame_after(before, image, with_cards(3),
                      [&](lib::RdsDriver& driver) { run_roughen(driver, image, roughening); });
 }
 
@@ -100,6 +100,20 @@ TEST(RoughenMicrocode, EveryPixelWordIsThatOfTheIntegerModelStraightAndPacked) {
   EXPECT_GT(fates.holes, 500) << "z' >= back must occur";
   EXPECT_GT(fates.empty, 5000);
   EXPECT_GT(fates.unbounded, 2000);
+}
+
+TEST(RoughenMicrocode, IsTheSameWithASlowerMultiplier) {
+  std::mt19937 random(kSeed);
+  const Frame before = random_hull_frame(random);
+  const Roughening roughening = make_roughening({0.3, 0.6}, 200, {100, 50, 260, 180}, 255, kSeed, 9);
+  Frame wanted = before;
+  roughen_model(roughening, kFrame, wanted);
+  for (const char* pack : {"none", "full"}) {
+    const lib::ProgramImage image = assembled(kProgram, pack, 4);
+    EXPECT_EQ(wanted, frame_after(before, image, with_multiplier(4),
+                                  [&](lib::RdsDriver& driver) { run_roughen(driver, image, roughening); }))
+        << pack;
+  }
 }
 
 TEST(RoughenMicrocode, TheFieldRepeatsEvery64PixelsAndHasNoSeam) {
