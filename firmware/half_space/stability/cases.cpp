@@ -10,6 +10,8 @@ std::vector<stability::Case> stability_cases() {
       {"N-A4", "depth registers of 6 to 24 bits: pixels lost at the silhouette", register_width},
       {"N-A5", "front = back, coincident duplicates, permuted planes", ties},
       {"N-A6", "third register: depths beyond 8 bits, hulls that touch exactly", third_register},
+      {"N-A7", "texture index of negative coordinates, modulo the cube's side", texture_index},
+      {"N-A8", "incremental texture coordinates of a roughened surface against exact ones", texture_drift},
       {"N-A9", "splitting: right angles, tails of gauss(), normals without length", splitting},
       {"N-A10", "corner cases of the 16x16 multiplier", multiplier},
       {"X1", "permute the planes inside a pass", permuted_planes},
