@@ -55,6 +55,9 @@ struct PixelCosts {
 struct MachineOptions {
   /// Words to log, by word index (page x 4096 + address): symbols of the program that begin with mark_ or phase_.
   std::map<std::uint32_t, std::string> marks;
+  /// The marks of programs that the host loads on the way, by their name (HostPort::program) and address in the page:
+  /// they take the place of those that were in that page.
+  std::map<std::string, std::map<std::uint32_t, std::string>> programs;
   std::int64_t tick_limit = 0;  ///< ticks the processor may run in one start before UserError; 0: no limit
   bool all_units = false;       ///< elaborate also the units that this run does not use
   std::string vcd_file;         ///< clocked only; empty: none

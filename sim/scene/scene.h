@@ -52,6 +52,7 @@ struct Object {
   std::vector<PlaneEntry> planes;  ///< an explicit list of half-spaces
   std::string tree;                ///< a grown tree: its kind
   std::map<std::string, OptionValue> tree_parameters;
+  std::map<std::string, OptionValue> trunk_parameters;  ///< of any object: the keys that begin with `trunk`
   Vector3 at{0, 0, 0};
   Vector3 rotate{0, 0, 0};                    ///< degrees about x, y, z
   double scale = 1.0;                         ///< > 0

@@ -64,6 +64,10 @@ class ReportingPort : public HostPort {
   void wait_interrupt() override;
   void compute(const Work& work) override { port_.compute(work); }
   void phase(std::string_view name) override;
+  std::uint32_t peek(std::uint32_t address, unsigned function) const override {
+    return port_.peek(address, function);
+  }
+  void program(std::string_view name, std::uint32_t first) override { port_.program(name, first); }
 
  private:
   HostPort& port_;

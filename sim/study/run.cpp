@@ -115,8 +115,7 @@ MachineOptions machine_options(const RunRequest& request, const Job& job, Progre
   MachineOptions options = request.options;
   if (options.tick_limit == 0) options.tick_limit = kDefaultTickLimit;
   for (const FirmwareImage& image : job.firmware()) {
-    const auto marks = marked_words(image.symbols);
-    options.marks.insert(marks.begin(), marks.end());
+    options.programs[image.name] = marked_words(image.symbols);
     for (const auto& [name, address] : image.symbols) options.symbols[address] = name;
   }
   if (progress && progress->enabled())

@@ -59,7 +59,8 @@ void check_camera(const Node& document) {
 void check_object(const Node& object, const std::string& path) {
   if (object.member("tree") != nullptr) return;
   check_names(object, path,
-              {"mesh", "solid", "planes", "tree", "at", "rotate", "scale", "units", "up_axis", "groups"});
+              {"mesh", "solid", "planes", "tree", "at", "rotate", "scale", "units", "up_axis", "groups",
+               "trunk", "trunk_width", "trunk_height"});
   if (object.member("mesh") != nullptr) return;
   if (const Node* groups = object.member("groups")) fail(*groups, path + ".groups", "goes with a mesh only");
   if (const Node* units = object.member("units"); units != nullptr && object.member("solid") != nullptr)

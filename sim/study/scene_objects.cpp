@@ -70,6 +70,8 @@ std::vector<scene::PlaneEntry> read_planes(TableReader& object) {
   return planes;
 }
 
+bool is_trunk_key(const std::string& key) { return key.compare(0, 5, "trunk") == 0; }
+
 void read_shape(TableReader& reader, const Node& table, scene::Object& object) {
   std::vector<std::string> given;
   for (const char* key : {"mesh", "solid", "planes", "tree"})
@@ -81,11 +83,14 @@ void read_shape(TableReader& reader, const Node& table, scene::Object& object) {
   object.solid = reader.choice("solid", "", scene::solid_names());
   object.planes = read_planes(reader);
   object.tree = reader.text("tree", "");
+  for (const auto& [key, node] : table.members)
+    if (is_trunk_key(key))
+      object.trunk_parameters[key] = option_value(*reader.node(key), reader.full_key(key));
   if (object.tree.empty()) return;
   static const std::vector<std::string> kCommon = {"tree",  "at",      "rotate", "scale",
                                                    "units", "up_axis", "groups"};
   for (const auto& [key, node] : table.members)
-    if (std::find(kCommon.begin(), kCommon.end(), key) == kCommon.end())
+    if (!is_trunk_key(key) && std::find(kCommon.begin(), kCommon.end(), key) == kCommon.end())
       object.tree_parameters[key] = option_value(*reader.node(key), reader.full_key(key));
 }
 

@@ -53,6 +53,8 @@ class TurningPort : public HostPort {
   void wait_interrupt() override { port_.wait_interrupt(); }
   void compute(const Work& work) override { port_.compute(work); }
   void phase(std::string_view name) override { port_.phase(name); }
+  std::uint32_t peek(std::uint32_t a, unsigned f) const override { return port_.peek(a, f); }
+  void program(std::string_view name, std::uint32_t first) override { port_.program(name, first); }
 
  private:
   HostPort& port_;

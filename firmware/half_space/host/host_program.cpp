@@ -26,23 +26,43 @@ std::vector<std::uint32_t> params_of(const PlaneProgram& program, std::uint32_t 
 
 }  // namespace
 
-void check_fits(const Prepared& prepared, const ProgramImage& image, std::uint32_t scratch_words,
-                const scene::Where& where) {
-  for (const auto& [name, size] : {std::pair("box", kBoxWords), {"params", int{kSaturate}}, {"records", 0}}) {
+void check_areas(const ProgramImage& image,
+                 const std::vector<std::pair<std::string, std::uint32_t>>& areas) {
+  for (const auto& [name, size] : areas) {
     const auto area = image.scratch.find(name);
-    if (area == image.scratch.end() || area->second.size < static_cast<std::uint32_t>(size))
+    if (area == image.scratch.end() || area->second.size < size)
       throw UserError(image.name + fmt::format(": the scratch area \"{}\" is missing or too small", name));
   }
-  if (prepared.program.steep == SteepPolicy::kSaturate && image.scratch.at("params").size < kParamsWords)
-    throw UserError(where.file, where.line, "half_space.steep",
-                    "this microprogram has no saturating adder; must be wide or wrap");
+}
+
+void check_records(const PlaneProgram& program, const ProgramImage& image, std::uint32_t scratch_words,
+                   const scene::Where& where) {
   const std::uint32_t first = image.scratch.at("records").address;
-  const std::size_t wanted = prepared.program.record_words().size();
+  const std::size_t wanted = program.record_words().size();
   const std::size_t room = scratch_words > first ? scratch_words - first : 0;
   if (wanted > room)
     throw UserError(where.file, where.line, "object",
                     fmt::format("{} planes, {} of them wide, take {} scratchpad words; {} are free",
-                                prepared.screen.size(), prepared.program.wide_records(), wanted, room));
+                                program.back.size() + program.edge_on.size() + program.front.size(),
+                                program.wide_records(), wanted, room));
+}
+
+void refuse_saturation(const scene::Where& where) {
+  throw UserError(where.file, where.line, "half_space.steep",
+                  "this microprogram has no saturating adder; must be wide or wrap");
+}
+
+std::vector<std::uint32_t> box_words(const Box& box) {
+  return {static_cast<std::uint32_t>(box.x0), static_cast<std::uint32_t>(box.y0),
+          static_cast<std::uint32_t>(box.x1), static_cast<std::uint32_t>(box.y1)};
+}
+
+void check_fits(const Prepared& prepared, const ProgramImage& image, std::uint32_t scratch_words,
+                const scene::Where& where) {
+  check_areas(image, {{"box", kBoxWords}, {"params", kSaturate}, {"records", 0}});
+  if (prepared.program.steep == SteepPolicy::kSaturate && image.scratch.at("params").size < kParamsWords)
+    refuse_saturation(where);
+  check_records(prepared.program, image, scratch_words, where);
 }
 
 std::vector<std::uint32_t> look_up_table(const std::vector<Rgb>& shades) {
@@ -71,10 +91,7 @@ void run(HostPort& host, const Prepared& prepared, const ProgramImage& image, bo
   Work work;
   work.flops = prepared.setup_flops;
   host.compute(work);
-  const Box& box = program.box;
-  driver.write_scratch(image.scratch.at("box").address,
-                       {static_cast<std::uint32_t>(box.x0), static_cast<std::uint32_t>(box.y0),
-                        static_cast<std::uint32_t>(box.x1), static_cast<std::uint32_t>(box.y1)});
+  driver.write_scratch(image.scratch.at("box").address, box_words(program.box));
   const ScratchArea& params = image.scratch.at("params");
   driver.write_scratch(params.address, params_of(program, params.size));
   driver.write_scratch(image.scratch.at("records").address, program.record_words());

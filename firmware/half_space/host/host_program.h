@@ -14,6 +14,19 @@ using lib::ScratchArea;
 void check_fits(const Prepared& prepared, const ProgramImage& image, std::uint32_t scratch_words,
                 const scene::Where& where);
 
+/// Throws UserError unless the microprogram has these scratch areas with at least so many words.
+void check_areas(const ProgramImage& image, const std::vector<std::pair<std::string, std::uint32_t>>& areas);
+
+/// Throws UserError unless the records fit between `records` and the end of the scratchpad.
+void check_records(const PlaneProgram& program, const ProgramImage& image, std::uint32_t scratch_words,
+                   const scene::Where& where);
+
+/// Throws UserError for a program that needs an adder which the microprogram does not have.
+[[noreturn]] void refuse_saturation(const scene::Where& where);
+
+/// The words of the scratch area `box`.
+std::vector<std::uint32_t> box_words(const Box& box);
+
 /// The words of the look-up table: entry f of every 256 the shade of face f, 8 bits widened to 10.
 std::vector<std::uint32_t> look_up_table(const std::vector<Rgb>& shades);
 

@@ -1,6 +1,8 @@
 #include "firmware/half_space/host/object_planes.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <fnmatch.h>
 
 #include <algorithm>
 #include <cmath>
@@ -26,6 +28,36 @@ constexpr std::size_t kDefaultPlanes = 32;
   throw UserError(object.source_where.file, object.source_where.line, key, message);
 }
 
+/// The corners of the triangles in the groups that the object's pattern for `meaning` names.
+std::vector<glm::dvec3> points_of(const scene::Mesh& mesh, const scene::Object& object,
+                                  const std::string& meaning) {
+  const std::string& pattern = object.groups.at(meaning);
+  std::vector<bool> wanted(mesh.vertices.size(), false);
+  for (const scene::MeshGroup& group : mesh.groups)
+    if (::fnmatch(pattern.c_str(), group.name.c_str(), 0) == 0)
+      for (std::size_t i = group.first; i < group.first + group.count; ++i)
+        for (const std::uint32_t corner : mesh.triangles[i]) wanted[corner] = true;
+  std::vector<glm::dvec3> points;
+  for (std::size_t i = 0; i < wanted.size(); ++i)
+    if (wanted[i]) points.push_back(mesh.vertices[i]);
+  if (points.empty()) {
+    std::vector<std::string> names;
+    for (const scene::MeshGroup& group : mesh.groups) names.push_back(group.name);
+    blame(object, "object.groups",
+          fmt::format("{}: no group is named like {} = \"{}\"; there are {}", object.mesh, meaning, pattern,
+                      names.empty() ? "none" : fmt::format("{}", fmt::join(names, ", "))));
+  }
+  return points;
+}
+
+/// What the hull is drawn around: the groups named in groups.crown, else all of the mesh.
+std::vector<glm::dvec3> crown_of(const scene::Mesh& mesh, const scene::Object& object) {
+  for (const auto& [meaning, pattern] : object.groups)
+    if (meaning != "crown" && meaning != "trunk")
+      blame(object, "object.groups", fmt::format("\"{}\" is not known; must be crown or trunk", meaning));
+  return object.groups.count("crown") != 0 ? points_of(mesh, object, "crown") : mesh.vertices;
+}
+
 scene::PlaneSet mesh_planes(const scene::Object& object, scene::Options& options, ObjectPlanes& result) {
   const auto count = static_cast<std::size_t>(options.integer("planes", 0, 4, kMostPlanes));
   const std::string source = options.choice("plane_source", "hull", {"hull", "support"});
@@ -42,15 +74,20 @@ scene::PlaneSet mesh_planes(const scene::Object& object, scene::Options& options
 
   const scene::Mesh mesh = scene::load_mesh(object.mesh, object.source_where, "object.mesh");
   result.files = mesh.files;
+  const std::vector<glm::dvec3> vertices = crown_of(mesh, object);
+  if (object.groups.count("trunk") != 0) {
+    const scene::Placement place(object);
+    for (const glm::dvec3& p : points_of(mesh, object, "trunk")) result.trunk_points.push_back(place(p));
+  }
   if (source == "support") {
     if (directions.empty() && count == 0) options.fail("planes", "is needed with plane_source = \"support\"");
-    return scene::support_planes(mesh.vertices,
+    return scene::support_planes(vertices,
                                  directions.empty() ? scene::sphere_directions(count) : directions);
   }
   try {
-    scene::PlaneSet planes = scene::hull_planes(mesh.vertices, count);
+    scene::PlaneSet planes = scene::hull_planes(vertices, count);
     if (options.has("planes") || planes.size() <= kDefaultPlanes) return planes;
-    return scene::hull_planes(mesh.vertices, kDefaultPlanes);
+    return scene::hull_planes(vertices, kDefaultPlanes);
   } catch (const std::invalid_argument& error) {
     if (options.has("planes")) options.fail("planes", fmt::format("{}: {}", object.mesh, error.what()));
     blame(object, "object.mesh", fmt::format("{}: {}", object.mesh, error.what()));
@@ -120,13 +157,13 @@ ObjectPlanes given_planes(const scene::Object& object, scene::Options& options) 
   return result;
 }
 
+}  // namespace
+
 const char* source_key(const scene::Object& object) {
   if (!object.mesh.empty()) return "object.mesh";
   if (!object.solid.empty()) return "object.solid";
   return object.tree.empty() ? "object.planes" : "object.tree";
 }
-
-}  // namespace
 
 void check_mesh_options(const scene::Scene& scene, const scene::Options& options) {
   for (const scene::Object& object : scene.objects)

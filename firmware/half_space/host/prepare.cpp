@@ -3,11 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 #include <glm/geometric.hpp>
-#include <optional>
 
-#include "firmware/half_space/host/screen_setup.h"
+#include "firmware/half_space/host/scene_setup.h"
 #include "sim/base/error.h"
 #include "sim/scene/view.h"
 
@@ -32,86 +30,37 @@ class Preparation {
   Prepared make() {
     options_.integer("registers", 2, 2, 3);
     check_mesh_options(scene_, options_);
-    std::vector<ObjectPlanes> objects = object_planes(scene_.objects[0], options_, scene_.seed);
-    if (objects.size() > 1) blame_object("copies need the third register");
-    object_ = std::move(objects.front());
-    result_.world = object_.planes;
-    result_.files = object_.files;
-    if (object_.grown) result_.growth = growth_work(object_.growth);
-    PlaneProgram& program = result_.program;
-    program.width = scene_.image.width, program.height = scene_.image.height;
-    program.maxdepth = (1 << options_.integer("depth_bits", kFrontBits, 6, kFrontBits)) - 1;
-    program.boxing = options_.boolean("boxing", true);
-    program.steep = read_steep(options_);
-    find_corners();
+    const scene::Object& object = scene_.objects[0];
+    std::vector<ObjectPlanes> objects = object_planes(object, options_, scene_.seed);
+    if (objects.size() > 1) blame(object, "copies need the third register");
+    const ObjectPlanes& planes = objects.front();
+    result_.world = planes.planes;
+    result_.files = planes.files;
+    if (planes.grown) result_.growth = growth_work(planes.growth);
+    const ScanSettings settings = read_scan_settings(options_, kFrontBits);
+    const Extent extent = extent_of(planes, view_);
+    check_extent(object, planes, extent, options_);
+    if (!options_.has("depth_range")) result_.setup_flops += extent.flops;
     result_.screen =
-        to_screen(result_.world, view_, scene_.image.height / scene_.camera.height, map_depth_of_scene());
-    choose_box();
-    make_records();
+        to_screen(result_.world, view_, scene_.image.height / scene_.camera.height,
+                  read_depth_map(options_, extent.nearest, extent.farthest, settings.maxdepth));
+    std::optional<PlaneProgram> program =
+        make_program(scene_.image, settings, result_.screen, extent, true, result_.setup_flops);
+    if (!program) blame(object, "the object lies outside the picture");
+    result_.program = std::move(*program);
+    check_faces();
     make_shades();
     options_.finish();
     return std::move(result_);
   }
 
  private:
-  [[noreturn]] void blame_object(const std::string& message) const {
-    const scene::Object& object = scene_.objects[0];
-    const char* key = !object.mesh.empty()    ? "object.mesh"
-                      : !object.solid.empty() ? "object.solid"
-                      : !object.tree.empty()  ? "object.tree"
-                                              : "object.planes";
-    throw UserError(object.source_where.file, object.source_where.line, key, message);
-  }
-
-  void find_corners() {
-    const bool background =
-        options_.choice("unbounded", object_.grown ? "background" : "error", {"error", "background"}) == "background";
-    extent_ = extent_of(object_, view_);
-    if (!extent_.bounded && !background)
-      blame_object(fmt::format("the intersection of the {} planes is unbounded", result_.world.size()));
-    if (extent_.empty) blame_object(fmt::format("no point lies inside all {} planes", result_.world.size()));
-      }
-
-  DepthMap map_depth_of_scene() {
-    const std::vector<double> given = options_.vector("depth_range", {0, 0}, -1e9, 1e9);
-    const double margin = options_.real("depth_margin", 0.05, 0, 10);
-    if (options_.has("depth_range")) {
-      if (!(given[0] < given[1]))
-        options_.fail("depth_range", "must be [nearest, farthest] with nearest < farthest");
-      if (options_.has("depth_margin")) options_.fail("depth_margin", "goes without depth_range only");
-      return map_depth(given[0], given[1], 0, result_.program.maxdepth);
-    }
-    if (!extent_.has_depth())
-      options_.fail("depth_range", "is needed when the planes are unbounded: [nearest, farthest] metres");
-    result_.setup_flops += extent_.flops;
-    return map_depth(extent_.nearest, extent_.farthest, margin, result_.program.maxdepth);
-  }
-
-  void choose_box() {
-    PlaneProgram& program = result_.program;
-    const bool full = options_.choice("starting_box", "vertices", {"vertices", "full"}) == "full";
-    program.box = {0, 0, program.width - 1, program.height - 1};
-    if (extent_.corners.empty()) return;
-    const std::optional<Box> around = box_around(extent_.corners, program.width, program.height);
-    if (!around) blame_object("the object lies outside the picture");
-    if (!full) program.box = *around;
-  }
-
-  void make_records() {
-    PlaneProgram& program = result_.program;
-    for (const ScreenPlane& plane : result_.screen) {
-      const PlaneRecord record = make_record(plane, program.box, program.steep, program.maxdepth / 2.0);
-      (record.kind == PlaneKind::kBack    ? program.back
-       : record.kind == PlaneKind::kFront ? program.front
-                                          : program.edge_on)
-          .push_back(record);
-      result_.setup_flops += kFlopsTransformPlane + kFlopsSlopes + kFlopsRound + kFlopsSteepTest;
-    }
+  void check_faces() const {
     const auto faces = std::count_if(result_.screen.begin(), result_.screen.end(),
                                      [](const ScreenPlane& p) { return p.kind == PlaneKind::kFront; });
     if (faces > kLargestFaces)
-      blame_object(fmt::format("{} front faces are more than the {} that a face number can tell apart", faces,
-                               kLargestFaces));
+      blame(scene_.objects[0], fmt::format("{} front faces are more than the {} that a face number can tell apart",
+                                           faces, kLargestFaces));
   }
 
   void make_shades() {
@@ -132,8 +81,6 @@ class Preparation {
   scene::Options options_;
   scene::Affine view_;
   Prepared result_;
-  ObjectPlanes object_;
-  Extent extent_;
 };
 
 }  // namespace

@@ -17,6 +17,7 @@ constexpr unsigned kWordFunction = 0;
 
 constexpr std::uint32_t kViewportSize = 1;     // FBC register: size - 1, x in the low half
 constexpr std::uint32_t kLuvoStraight = 0x24;  // channel k from byte k
+constexpr std::uint32_t kPageWords = 4096;     // of the control store
 constexpr unsigned kCrossbarLines = 34;
 
 // Interface command bits [NYU-H].
@@ -28,7 +29,9 @@ constexpr std::uint32_t kLargestGap = 256;
 
 }  // namespace
 
-void RdsDriver::load_program(const ProgramImage& image) {
+void RdsDriver::load_program(const ProgramImage& image, std::uint32_t page) {
+  DENDRO_CHECK(image.words.size() <= kPageWords, "{} words", image.words.size());
+  host_.program(image.name, page * kPageWords);
   Work work;
   work.program_loads = 1;
   host_.compute(work);
@@ -37,8 +40,12 @@ void RdsDriver::load_program(const ProgramImage& image) {
     halves.push_back(static_cast<std::uint32_t>(word));
     halves.push_back(static_cast<std::uint32_t>(word >> 32));
   }
-  if (!halves.empty()) host_.dma_to(kControlStore, halves.data(), halves.size(), kWordFunction);
+  if (!halves.empty())
+    host_.dma_to(kControlStore + page * 2 * kPageWords, halves.data(), halves.size(), kWordFunction);
+  write_initial_scratch(image);
+}
 
+void RdsDriver::write_initial_scratch(const ProgramImage& image) {
   auto next = image.initial_scratch.begin();
   while (next != image.initial_scratch.end()) {
     const std::uint32_t first = next->first;
@@ -70,6 +77,16 @@ void RdsDriver::show_byte(unsigned low) {
   std::vector<std::uint32_t> lines;
   for (unsigned output = 0; output < kCrossbarLines; ++output)
     lines.push_back(output < 24 ? low + output % 8 : output);
+  route(lines);
+}
+
+void RdsDriver::show_colour() {
+  std::vector<std::uint32_t> lines;
+  for (unsigned output = 0; output < kCrossbarLines; ++output) lines.push_back(output);
+  route(lines);
+}
+
+void RdsDriver::route(const std::vector<std::uint32_t>& lines) {
   host_.dma_to(kCrossbar, lines.data(), lines.size(), kWordFunction);
   host_.write(kLuvoCrossbar, kLuvoStraight, kWordFunction);
 }

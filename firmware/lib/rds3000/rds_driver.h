@@ -32,8 +32,12 @@ class RdsDriver {
  public:
   explicit RdsDriver(HostPort& host) : host_(host) {}
 
-  /// Opens the program (one program load of host software), sends control store and initial scratch data.
-  void load_program(const ProgramImage& image);
+  /// Opens the program (one program load of host software), sends control store and initial scratch data. The
+  /// program goes to the page of 4,096 words; start it with its entry point in that page.
+  void load_program(const ProgramImage& image, std::uint32_t page = 0);
+
+  /// The scratchpad's words as the program wants them at its start.
+  void write_initial_scratch(const ProgramImage& image);
 
   void write_scratch(std::uint32_t address, const std::vector<std::uint32_t>& words);
 
@@ -46,6 +50,9 @@ class RdsDriver {
   /// Sends pixel lines low..low+7 to the address bits of all three channels' tables.
   void show_byte(unsigned low);
 
+  /// Sends pixel lines 0..7 to the address bits of the red channel's table, 8..15 to green's, 16..23 to blue's.
+  void show_colour();
+
   /// Makes the monitor show the top left width x height pixels of the lores frame. `repeat_field`: the display mode
   /// shows every line in both fields, and its viewport counts them twice [BRL-C, mode 1].
   void set_viewport(int width, int height, bool repeat_field);
@@ -57,6 +64,8 @@ class RdsDriver {
   void wait();
 
  private:
+  void route(const std::vector<std::uint32_t>& lines);
+
   HostPort& host_;
 };
 

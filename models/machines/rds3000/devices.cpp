@@ -82,4 +82,17 @@ void reset(ProcessorState& processor) {
   processor.interrupt = false;
 }
 
+std::uint32_t peek_at(const ProcessorState& processor, const video::State& video, const dr64::Core& memory,
+                      std::uint32_t address, unsigned function) {
+  if (on_processor_board(address)) return read_processor_board(processor, address);
+  if (device_at(address) == Device::Fbc) return video.fbc[(address & kAddressMask) - kFbc];
+  return read_device(memory, video, address, function);
+}
+
+void replace_marks(std::map<std::uint32_t, std::string>& marks,
+                   const std::map<std::uint32_t, std::string>& program, std::uint32_t first) {
+  marks.erase(marks.lower_bound(first), marks.lower_bound(first + bps32::kPageWords));
+  for (const auto& [address, name] : program) marks[first + address] = name;
+}
+
 }  // namespace dendro::rds3000

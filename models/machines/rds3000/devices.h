@@ -1,6 +1,8 @@
 #pragma once
 
 #include <cstdint>
+#include <map>
+#include <string>
 
 #include "models/machines/rds3000/rds3000_map.h"
 #include "models/machines/rds3000/rds3000_spec.h"
@@ -42,6 +44,14 @@ constexpr bool on_processor_board(std::uint32_t address) {
 std::uint32_t read_processor_board(const ProcessorState& processor, std::uint32_t address);
 /// Returns the index of the control word that changed, or -1.
 std::int64_t write_processor_board(ProcessorState& processor, std::uint32_t address, std::uint32_t data);
+
+/// A word as the bus would read it, or for the FBC, whose registers cannot be read, what it holds.
+std::uint32_t peek_at(const ProcessorState& processor, const video::State& video, const dr64::Core& memory,
+                      std::uint32_t address, unsigned function);
+
+/// The page of the control store that begins at word `first` gets the marks of another program.
+void replace_marks(std::map<std::uint32_t, std::string>& marks,
+                   const std::map<std::uint32_t, std::string>& program, std::uint32_t first);
 
 /// Reset from the interface's command register.
 void reset(ProcessorState& processor);

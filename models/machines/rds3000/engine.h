@@ -4,9 +4,11 @@
 #include <exception>
 #include <map>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "models/machines/machine.h"
+#include "models/machines/rds3000/devices.h"
 #include "models/machines/rds3000/rds3000_spec.h"
 #include "models/machines/rds3000/rds3000_state.h"
 #include "models/parts/ik11b/ik11b_shell.h"
@@ -39,16 +41,28 @@ class Engine : public ik11b::Target {
   const std::vector<RunInterval>& runs() const { return runs_; }
   const std::vector<MarkEvent>& marks() const { return marks_; }
   bool time_dependent() const { return time_dependent_; }
+  std::uint32_t peek(std::uint32_t address, unsigned function) const override {
+    return peek_at(processor(), video(), memory(), address, function);
+  }
   /// The tick limit was hit (UserError) or nothing.
   std::exception_ptr error() const override { return error_; }
 
   /// Names of marked words by word index (page x 4096 + address); set before the run. A mark is logged with the tick in which its word executes.
   void set_marks(std::map<std::uint32_t, std::string> names) { mark_names_ = std::move(names); }
+  /// The marks that a program brings when the host loads it: MachineOptions::programs.
+  void set_programs(std::map<std::string, std::map<std::uint32_t, std::string>> programs) {
+    programs_ = std::move(programs);
+  }
+  void program(std::string_view name, std::uint32_t first) override {
+    if (const auto known = programs_.find(std::string(name)); known != programs_.end())
+      replace_marks(mark_names_, known->second, first);
+  }
 
  protected:
   std::vector<RunInterval> runs_;
   std::vector<MarkEvent> marks_;
   std::map<std::uint32_t, std::string> mark_names_;
+  std::map<std::string, std::map<std::uint32_t, std::string>> programs_;
   bool time_dependent_ = false;
   std::exception_ptr error_;
 };

@@ -98,4 +98,13 @@ void FunctionEngine::compute(const Work&) {}
 
 void FunctionEngine::phase(std::string_view) {}
 
+std::uint32_t FunctionEngine::peek(std::uint32_t address, unsigned function) const {
+  return peek_at(processor_, devices_.video, devices_.memory, address, function);
+}
+
+void FunctionEngine::program(std::string_view name, std::uint32_t first) {
+  if (const auto known = options_.programs.find(std::string(name)); known != options_.programs.end())
+    replace_marks(options_.marks, known->second, first);
+}
+
 }  // namespace dendro::rds3000

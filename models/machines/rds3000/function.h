@@ -24,6 +24,8 @@ class FunctionEngine : public HostPort {
   void wait_interrupt() override;
   void compute(const Work& work) override;
   void phase(std::string_view name) override;
+  std::uint32_t peek(std::uint32_t address, unsigned function) const override;
+  void program(std::string_view name, std::uint32_t first) override;
 
   const ProcessorState& processor() const { return processor_; }
   const Devices& devices() const { return devices_; }

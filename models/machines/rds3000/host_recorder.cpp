@@ -65,6 +65,8 @@ class HostRecorder::Port : public HostPort {
     port_.compute(work);
   }
   void phase(std::string_view name) override { port_.phase(name); }
+  std::uint32_t peek(std::uint32_t address, unsigned function) const override { return port_.peek(address, function); }
+  void program(std::string_view name, std::uint32_t first) override { port_.program(name, first); }
 
  private:
   static trace::Keys dma(std::size_t count, unsigned function, std::uint32_t step) {

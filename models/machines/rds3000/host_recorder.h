@@ -28,6 +28,10 @@ class HostRecorder : public ik11b::Target {
   void clear_interrupt() override;
   bool running() const override { return machine_.running(); }
   std::exception_ptr error() const override { return machine_.error(); }
+  std::uint32_t peek(std::uint32_t address, unsigned function) const override {
+    return machine_.peek(address, function);
+  }
+  void program(std::string_view name, std::uint32_t first) override { machine_.program(name, first); }
 
  private:
   class Port;

@@ -18,14 +18,6 @@ Picture picture_of(const video::State& video, const dr64::Core& memory) {
   return {frame.width, frame.height, std::move(frame.rgb)};
 }
 
-// A word as the bus would read it, or for the FBC, whose registers cannot be read, what it holds.
-std::uint32_t peek_at(const ProcessorState& processor, const video::State& video, const dr64::Core& memory,
-                      std::uint32_t address, unsigned function) {
-  if (on_processor_board(address)) return read_processor_board(processor, address);
-  if (device_at(address) == Device::Fbc) return video.fbc[(address & kAddressMask) - kFbc];
-  return read_device(memory, video, address, function);
-}
-
 class FunctionMachine : public Machine {
  public:
   FunctionMachine(const Spec& spec, const MachineOptions& options) : spec_(spec), options_(options), engine_(spec, options) {}
@@ -49,7 +41,7 @@ class FunctionMachine : public Machine {
   bool time_dependent() const override { return engine_.time_dependent(); }
   Picture picture() const override { return picture_of(engine_.devices().video, engine_.devices().memory); }
   std::uint32_t peek(std::uint32_t address, unsigned function) const override {
-    return peek_at(engine_.processor(), engine_.devices().video, engine_.devices().memory, address, function);
+    return engine_.peek(address, function);
   }
 
  private:
@@ -68,6 +60,7 @@ class TimedMachine : public Machine {
       engine_ = std::make_unique<CycleEngine>(spec, options);
     }
     engine_->set_marks(options.marks);
+    engine_->set_programs(options.programs);
   }
 
   void run(const std::function<void(HostPort&)>& host_program) override {
@@ -104,7 +97,7 @@ class TimedMachine : public Machine {
   Picture picture() const override { return picture_of(engine_->video(), engine_->memory()); }
   PixelCosts costs() const override;
   std::uint32_t peek(std::uint32_t address, unsigned function) const override {
-    return peek_at(engine_->processor(), engine_->video(), engine_->memory(), address, function);
+    return engine_->peek(address, function);
   }
 
  private:

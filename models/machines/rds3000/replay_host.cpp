@@ -46,6 +46,8 @@ class HostReplay : public ik11b::Target {
   void clear_interrupt() override {}
   bool running() const override { return true; }
   std::exception_ptr error() const override { return nullptr; }
+  std::uint32_t peek(std::uint32_t, unsigned) const override { return 0; }
+  void program(std::string_view, std::uint32_t) override {}
 
  private:
   std::int64_t edge() const { return (now_ps() + tick_ps_ - 1) / tick_ps_; }

@@ -41,6 +41,12 @@ class HostPort {
 
   /// Names what the host does from here on; time while the machine does not run is booked under this name.
   virtual void phase(std::string_view name) = 0;
+
+  /// A word as a debugger sees it: no time passes, nothing changes. For measuring only.
+  virtual std::uint32_t peek(std::uint32_t address, unsigned function) const = 0;
+
+  /// Tells those who measure that the control store holds the program `name` from word `first` on. No time passes.
+  virtual void program(std::string_view name, std::uint32_t first) = 0;
 };
 
 }  // namespace dendro

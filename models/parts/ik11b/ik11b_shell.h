@@ -4,6 +4,7 @@
 #include <exception>
 #include <functional>
 #include <string>
+#include <string_view>
 #include <systemc>
 #include <vector>
 
@@ -31,6 +32,10 @@ class Target {
   virtual bool running() const = 0;
   /// The machine gave up (UserError), or nothing.
   virtual std::exception_ptr error() const = 0;
+  /// A word as a debugger sees it.
+  virtual std::uint32_t peek(std::uint32_t address, unsigned function) const = 0;
+  /// The control store is about to hold the program `name` from word `first` on.
+  virtual void program(std::string_view name, std::uint32_t first) = 0;
 };
 
 /// A named stretch of the host's program.
@@ -55,6 +60,10 @@ class Shell : public sc_core::sc_module, public HostPort {
   void wait_interrupt() override;
   void compute(const Work& work) override;
   void phase(std::string_view name) override;
+  std::uint32_t peek(std::uint32_t address, unsigned function) const override {
+    return target_.peek(address, function);
+  }
+  void program(std::string_view name, std::uint32_t first) override { target_.program(name, first); }
 
   const std::vector<HostPhase>& phases() const { return phases_; }
   std::int64_t ended_ps() const { return ended_ps_; }

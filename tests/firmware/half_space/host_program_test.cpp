@@ -44,6 +44,8 @@ class FakeMachine : public HostPort {
   }
   void compute(const Work& work) override { loads_ += work.program_loads, flops_ += work.flops; }
   void phase(std::string_view name) override { log_.push_back("phase " + std::string(name)); }
+  std::uint32_t peek(std::uint32_t, unsigned) const override { return 0; }
+  void program(std::string_view, std::uint32_t) override {}
 
   std::uint32_t word(std::uint32_t address) const {
     const auto found = words_.find(address);

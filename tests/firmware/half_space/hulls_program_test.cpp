@@ -33,7 +33,8 @@ class Booked : public HostPort {
   void command(std::uint32_t) override {}
   void wait_interrupt() override {
     const auto word = [&](std::uint32_t at) { return scratch.count(at) ? scratch[at] : 0; };
-    starts.push_back({word(0), word(1), word(2), word(3), word(4 + kHullFrontCount), word(4 + kHullClear)});
+    starts.push_back({word(0), word(1), word(2), word(3), word(4 + kHullFrontCount),
+                      HullAction{word(4 + kHullAction)}});
   }
   void compute(const Work& work) override {
     work_.flops += work.flops, work_.instructions += work.instructions;
@@ -41,9 +42,12 @@ class Booked : public HostPort {
     flops_of[phase_] += work.flops;
   }
   void phase(std::string_view name) override { phase_ = name; }
+  std::uint32_t peek(std::uint32_t, unsigned) const override { return 0; }
+  void program(std::string_view, std::uint32_t) override {}
 
   struct Start {
-    std::uint32_t x0, y0, x1, y1, fronts, clear;
+    std::uint32_t x0, y0, x1, y1, fronts;
+    HullAction action;
   };
   std::vector<Start> starts;
   std::map<std::uint32_t, std::uint32_t> scratch;
@@ -67,12 +71,12 @@ TEST(HullsProgram, IsLoadedOnceAndStartedToClearAndThenOnceAHull) {
   run(host, prepared, empty_program());
   EXPECT_EQ(host.work_.program_loads, 1u);
   ASSERT_EQ(host.starts.size(), 10u);
-  EXPECT_EQ(host.starts[0].clear, 1u);
+  EXPECT_EQ(host.starts[0].action, HullAction::kClear);
   EXPECT_EQ(host.starts[0].x1, 63u);
   EXPECT_EQ(host.starts[0].y1, 63u);
   for (std::size_t i = 1; i < host.starts.size(); ++i) {
     const PlaneProgram& program = prepared.hulls[i - 1].program;
-    EXPECT_EQ(host.starts[i].clear, 0u);
+    EXPECT_EQ(host.starts[i].action, HullAction::kPassesAndMerge);
     EXPECT_EQ(host.starts[i].x0, static_cast<std::uint32_t>(program.box.x0));
     EXPECT_EQ(host.starts[i].fronts, program.front.size());
   }
