@@ -79,6 +79,16 @@ Words table_words(const TextureSettings& settings) {
   return words;
 }
 
+Words origin_words(const TextureSettings& settings) {
+  Words words;
+  for (const auto& origin : chunk_origins(settings)) {
+    std::uint32_t place = 0;
+    for (unsigned axis = 0; axis < 3; ++axis) place |= field(settings.bits, axis, origin[axis]);
+    words.push_back(place);
+  }
+  return words;
+}
+
 Words param_words(const TextureSettings& settings) {
   Words params(kTextureParamsWords);
   params[kTextureFbm] = settings.kind == TextureKind::kFbm;
@@ -164,6 +174,7 @@ void build(HostPort& host, lib::RdsDriver& driver, const lib::ProgramImage& imag
     write("plain", plain);
     write("palette", palette_words(settings));
     write("places", place_words(settings.bits));
+    write("origins", origin_words(settings));
   }
   driver.start(image.entry);
   host.phase("finish");

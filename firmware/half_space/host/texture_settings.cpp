@@ -10,12 +10,12 @@
 namespace dendro::half_space {
 namespace {
 
-constexpr std::uint64_t kStream = 9;  // of the scene's seed, for the cube
+constexpr std::uint64_t kStream = 9, kOriginStream = 10;  // of the scene's seed, for the cube
 constexpr std::int64_t kMostChunks = 20'000;
 constexpr std::size_t kMostColours = 16;
 constexpr std::uint32_t kFrameBufferPixels = 512 * 512;
 constexpr std::uint32_t kAllDraws = 0x10000;
-constexpr double kSpread = 56;  // of the values about their middle  ASSUMED DEV-050
+constexpr double kLargestDisplacement = 128;  // from the middle to the ends of the values  ASSUMED DEV-050
 
 // Leaves as chunks and as a ramp, when the scene does not say.  ASSUMED DEV-051
 const std::vector<std::vector<double>> kLeafChunks = {
@@ -114,17 +114,13 @@ TextureSettings read_texture(scene::Options& options, const scene::Image& image,
 }
 
 std::vector<Amplitudes> amplitudes(unsigned bits, double hurst) {
-  // Uniform numbers: the variance of +-a is a^2 / 3. That of the cells' middles, over all halvings, is kSpread squared.
-  double sum = 0;
-  for (unsigned halving = 0; halving < bits; ++halving) sum += std::pow(0.25, halving * hurst) / 3;
-  const double largest = kSpread / std::sqrt(sum);
   std::vector<Amplitudes> result;
   for (unsigned halving = 0; halving < bits; ++halving) {
     const auto of = [&](double squared_distance) {
       const double share = std::pow(squared_distance / 3, hurst / 2) * std::pow(0.5, halving * hurst);
-      return static_cast<std::uint32_t>(std::lround(16 * largest * share));
+      return static_cast<std::uint32_t>(std::lround(16 * kLargestDisplacement * share));
     };
-    result.push_back({of(3), of(2), of(1)});
+    result.push_back({of(3), of(2), of(1)});  // in half cells: to corners, across a face, along an edge
   }
   return result;
 }
@@ -141,6 +137,14 @@ std::size_t texture_draws(const TextureSettings& settings) {
 
 std::vector<std::uint32_t> texture_seeds(const TextureSettings& settings) {
   return seed_table(settings.seed, kStream, seeds_for(texture_draws(settings)));
+}
+
+std::vector<std::array<std::uint32_t, 3>> chunk_origins(const TextureSettings& settings) {
+  std::vector<std::array<std::uint32_t, 3>> origins;
+  const std::uint32_t last = (1u << settings.bits) - 1;
+  for (const std::uint32_t word : seed_table(settings.seed, kOriginStream, seeds_for(texture_draws(settings))))
+    origins.push_back({word >> 11 & last, word >> 6 & last, word >> 1 & last});
+  return origins;
 }
 
 }  // namespace dendro::half_space

@@ -54,7 +54,7 @@ TextureSettings read_texture(scene::Options& options, const scene::Image& image,
                              std::uint64_t scene_seed);
 
 /// Of every halving of the cells, the largest first: `bits` of them. They fall with the distance between the texel and
-/// those that it is the mean of, to the power of the Hurst exponent.  ASSUMED DEV-050
+/// those that it is the mean of, to the power of the Hurst exponent; the first spans all values.  ASSUMED DEV-050
 std::vector<Amplitudes> amplitudes(unsigned bits, double hurst);
 
 /// Random numbers that the machine draws for the cube.
@@ -62,5 +62,9 @@ std::size_t texture_draws(const TextureSettings& settings);
 
 /// Their seeds.
 std::vector<std::uint32_t> texture_seeds(const TextureSettings& settings);
+
+/// For every seed a texel from which the places of its chunks count. Three numbers in a row of the generator lie on few
+/// planes; the planes of all seeds are the same, but not their origins.  ASSUMED DEV-051
+std::vector<std::array<std::uint32_t, 3>> chunk_origins(const TextureSettings& settings);
 
 }  // namespace dendro::half_space
