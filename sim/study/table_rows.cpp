@@ -126,8 +126,13 @@ void check_level(const TableContext& context) {
 Propagated propagate_scene(const TableContext& context, const SceneRun& run,
                            const std::vector<Metric>& metrics, const std::string& name) {
   check_level(context);
+  return propagate_request(context, request_of(context, run), metrics, name);
+}
+
+Propagated propagate_request(const TableContext& context, const RunRequest& request,
+                             const std::vector<Metric>& metrics, const std::string& name) {
   Propagated p;
-  p.request = request_of(context, run);
+  p.request = request;
   const RunMaker make = worker_runs(context.options.jobs, context.progress, name, &context.cache);
   p.nominal = from_bytes(make({p.request}).front().value()).object;
   p.intervals = propagate(p.request, p.nominal, metrics, make, context.options.full ? kSamples : 0);
@@ -139,6 +144,13 @@ void set_metric(TableRow& row, const Propagated& p, const std::vector<Metric>& m
   set_interval(row, p.intervals[i], p.request.preset.parameters);
 }
 
+std::vector<std::string> parameter_settings(const TableContext& context) {
+  std::vector<std::string> settings;
+  for (const std::string& setting : context.options.settings)
+    if (is_parameter(setting)) settings.push_back(setting);
+  return settings;
+}
+
 ExecOutput exec_text(const TableContext& context, const std::string& name, const std::string& text,
                      const std::vector<std::string>& settings, const std::string& level,
                      const std::vector<std::pair<std::uint32_t, std::uint32_t>>& dumps) {
@@ -148,9 +160,7 @@ ExecOutput exec_text(const TableContext& context, const std::string& name, const
   arguments.text = text;
   arguments.level = level.empty() ? context.options.level : level;
   arguments.dumps = dumps;
-  // A scene's keys mean nothing to a program that has no scene.
-  std::copy_if(context.options.settings.begin(), context.options.settings.end(),
-               std::back_inserter(arguments.settings), is_parameter);
+  arguments.settings = parameter_settings(context);
   arguments.settings.insert(arguments.settings.end(), settings.begin(), settings.end());
   return exec_program(context.catalogue, arguments, nullptr);
 }

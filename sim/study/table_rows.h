@@ -64,11 +64,18 @@ struct Propagated {
 Propagated propagate_scene(const TableContext& context, const SceneRun& run,
                            const std::vector<Metric>& metrics, const std::string& name);
 
+/// The same for any request with a level that has time.
+Propagated propagate_request(const TableContext& context, const RunRequest& request,
+                             const std::vector<Metric>& metrics, const std::string& name);
+
 /// Puts metric `i` of `p` and its interval into a row.
 void set_metric(TableRow& row, const Propagated& p, const std::vector<Metric>& metrics, std::size_t i);
 
 /// Throws UserError for a level without time.
 void check_level(const TableContext& context);
+
+/// Those of the table's settings that are the machine's: a scene's keys mean nothing to a program without scene.
+std::vector<std::string> parameter_settings(const TableContext& context);
 
 /// A microprogram's run with the table's settings of the machine.
 ExecOutput exec_text(const TableContext& context, const std::string& name, const std::string& text,
