@@ -61,8 +61,8 @@ int byte_of(const CubeBytes& cube, int axis, int x, int y, int z, int c) {
   return cube[0][static_cast<std::size_t>(((p[2] * kSide + p[1]) * kSide + p[0]) * 4 + c)];
 }
 
-/// Mean squared difference of the values on the planes x and x + lag of texels whose coordinates are multiples of `grid`,
-/// over seeds and axes; 0 where x is not.
+/// Mean squared difference of the values on the planes x and x + lag of texels whose coordinates are
+/// multiples of `grid`, over seeds and axes; 0 where x is not.
 std::vector<double> squared_differences(double hurst, int lag, int grid = 1) {
   constexpr int kSeeds = 12;
   std::vector<double> sums(kSide);
@@ -114,8 +114,12 @@ TEST(TextureModel, FbmColoursAreThoseOfTheTableForTheValue) {
 TextureSettings marked_chunks(std::int64_t count, std::int64_t edge, std::int64_t seed) {
   // Red tells the colours apart: 0 the base, 10 to 40 the chunks'.
   const Array colours = rows({{10, 1, 1, 0.4}, {20, 1, 1, 0.3}, {30, 1, 1, 0.2}, {40, 1, 1, 0.1}});
-  return read({{"texture", std::string("chunks")}, {"chunks", count}, {"chunk_edge", edge}, {"texture_seed", seed},
-               {"texture_base", numbers({0, 0, 0})}, {"chunk_colours", colours}});
+  return read({{"texture", std::string("chunks")},
+               {"chunks", count},
+               {"chunk_edge", edge},
+               {"texture_seed", seed},
+               {"texture_base", numbers({0, 0, 0})},
+               {"chunk_colours", colours}});
 }
 
 TEST(TextureModel, ChunksTakeTheirColoursInTheWantedSharesAndLieEvenly) {
@@ -136,7 +140,8 @@ TEST(TextureModel, ChunksTakeTheirColoursInTheWantedSharesAndLieEvenly) {
   for (const auto& [red, share] : std::map<int, double>{{10, 0.4}, {20, 0.3}, {30, 0.2}, {40, 0.1}})
     EXPECT_NEAR(seen[red] / covered, share, 0.02) << red;
   for (int axis = 0; axis < 3; ++axis)
-    for (const double count : planes[axis]) EXPECT_NEAR(count, covered / kSide, 5 * std::sqrt(covered / kSide));
+    for (const double count : planes[axis])
+      EXPECT_NEAR(count, covered / kSide, 5 * std::sqrt(covered / kSide));
 }
 
 TEST(TextureModel, AChunkIsABlockThatGoesOnAtTheOtherSide) {
@@ -241,12 +246,16 @@ TEST(TextureSettings, AutoPutsTheCubeIntoAFourthByteWhereThereIsOne) {
 
 TEST(TextureSettings, WhatCannotBeIsOneLineThatNamesTheKey) {
   const Value chunks = std::string("chunks");
-  const auto begins = [](const std::string& text, const std::string& start) { return text.rfind(start, 0) == 0; };
+  const auto begins = [](const std::string& text, const std::string& start) {
+    return text.rfind(start, 0) == 0;
+  };
   const std::map<std::string, std::map<std::string, Value>> cases = {
       {"test.toml:22: half_space.cube_bits: 64 x 64 x 64 texels take 1048576 pixels and do not fit",
        {{"texture", chunks}, {"cube_bits", std::int64_t{6}}}},
-      {"test.toml:22: half_space.cube_bits: 3 is outside", {{"texture", chunks}, {"cube_bits", std::int64_t{3}}}},
-      {"test.toml:22: half_space.layout: \"wide\" keeps", {{"texture", chunks}, {"layout", std::string("wide")}}},
+      {"test.toml:22: half_space.cube_bits: 3 is outside",
+       {{"texture", chunks}, {"cube_bits", std::int64_t{3}}}},
+      {"test.toml:22: half_space.layout: \"wide\" keeps",
+       {{"texture", chunks}, {"layout", std::string("wide")}}},
       {"test.toml:22: half_space.texture: \"bricks\" is not known", {{"texture", std::string("bricks")}}},
       {"test.toml:22: half_space.texture_from: ", {{"texture_from", std::string("disk")}}},
       {"test.toml:22: half_space.chunks: 20001 is outside", {{"chunks", std::int64_t{20'001}}}},
