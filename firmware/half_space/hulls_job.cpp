@@ -1,10 +1,8 @@
-#include <algorithm>
-
-#include "firmware/half_space/host/hulls_layout.h"
 #include "firmware/half_space/host/hulls_program.h"
+#include "firmware/half_space/hulls_facts.h"
 #include "firmware/half_space/job.h"
+#include "firmware/half_space/nearest_register.h"
 #include "firmware/half_space/reference/hulls_reference.h"
-#include "firmware/half_space/reference/reference.h"
 #include "sim/base/check.h"
 
 namespace dendro::half_space {
@@ -47,37 +45,11 @@ class HullsJob : public Job {
     return {{image_.name, image_.sha256, image_.symbols}};
   }
 
-  std::vector<std::pair<std::string, double>> facts() const override {
-    std::size_t back = 0, edge_on = 0, front = 0, wide = 0, visible = 0, unbounded = 0;
-    for (const Hull& hull : prepared_.hulls) {
-      back += hull.program.back.size(), edge_on += hull.program.edge_on.size(),
-          front += hull.program.front.size();
-      wide += hull.program.wide_records(), visible += hull.visible, unbounded += !hull.bounded;
-    }
-    const auto count = [](auto n) { return static_cast<double>(n); };
-    return {{"hulls", count(prepared_.hulls.size())},
-            {"hulls.visible", count(visible)},
-            {"hulls.unbounded", count(unbounded)},
-            {"planes.back", count(back)},
-            {"planes.edge_on", count(edge_on)},
-            {"planes.front", count(front)},
-            {"planes.wide", count(wide)},
-            {"splits", count(prepared_.splits)},
-            {"host.flops", count(prepared_.setup_flops)},
-            {"host.growth_flops", count(prepared_.growth.flops)}};
-  }
+  std::vector<std::pair<std::string, double>> facts() const override { return hulls_facts(prepared_); }
 
  private:
   std::vector<std::uint8_t> nearest_of(const MachineView& machine) const {
-    constexpr unsigned kLoresPixel = 2;  // bus function code
-    std::vector<std::uint8_t> nearest;
-    for (int y = 0; y < prepared_.height; ++y)
-      for (int x = 0; x < prepared_.width; ++x) {
-        const auto at = static_cast<std::uint32_t>(x) << 1 | static_cast<std::uint32_t>(y) << 11;
-        nearest.push_back(
-            static_cast<std::uint8_t>(machine.peek(at, kLoresPixel) >> kNearestLow & kHullField));
-      }
-    return nearest;
+    return nearest_register(prepared_.width, prepared_.height, machine.peek);
   }
 
   PreparedHulls prepared_;
@@ -86,6 +58,26 @@ class HullsJob : public Job {
 };
 
 }  // namespace
+
+std::vector<std::pair<std::string, double>> hulls_facts(const PreparedHulls& prepared) {
+  std::size_t back = 0, edge_on = 0, front = 0, wide = 0, visible = 0, unbounded = 0;
+  for (const Hull& hull : prepared.hulls) {
+    back += hull.program.back.size(), edge_on += hull.program.edge_on.size();
+    front += hull.program.front.size(), wide += hull.program.wide_records();
+    visible += hull.visible, unbounded += !hull.bounded;
+  }
+  const auto count = [](auto n) { return static_cast<double>(n); };
+  return {{"hulls", count(prepared.hulls.size())},
+          {"hulls.visible", count(visible)},
+          {"hulls.unbounded", count(unbounded)},
+          {"planes.back", count(back)},
+          {"planes.edge_on", count(edge_on)},
+          {"planes.front", count(front)},
+          {"planes.wide", count(wide)},
+          {"splits", count(prepared.splits)},
+          {"host.flops", count(prepared.setup_flops)},
+          {"host.growth_flops", count(prepared.growth.flops)}};
+}
 
 std::unique_ptr<Job> make_hulls_job(const scene::Scene& scene, ProgramImage image, const Site& site) {
   return std::make_unique<HullsJob>(scene, std::move(image), site);

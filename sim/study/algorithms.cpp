@@ -45,7 +45,11 @@ constexpr Source kHalfSpace = {"half_space", "rds3000", "firmware/half_space/rds
 
 constexpr Source kHulls = {"hulls", "rds3000", "firmware/half_space/rds3000/hulls.gia"};
 
-const Source kSources[] = {kHalfSpace, kHulls};
+constexpr Source kRoughen = {"roughen", "rds3000", "firmware/half_space/rds3000/roughen.gia"};
+constexpr Source kTexture = {"texture", "rds3000", "firmware/half_space/rds3000/texture.gia"};
+constexpr Source kColour = {"colour", "rds3000", "firmware/half_space/rds3000/colour.gia"};
+
+const Source kSources[] = {kHalfSpace, kHulls, kRoughen, kTexture, kColour};
 const char* const kPacks[] = {"none", "full"};
 
 tools::Assembly assemble_source(const Source& source, tools::AssembleOptions options) {
@@ -130,6 +134,17 @@ std::unique_ptr<Job> make_half_space(const scene::Scene& scene, const MachineTyp
   site.scratch_words = static_cast<std::uint32_t>(integer_of(parameters, "processor.scratch_words"));
   const config::Parameter* mode = parameters.find("video.display_mode");
   site.repeat_field = mode != nullptr && config::to_text(mode->value) == "1";
+  site.control_store_words = static_cast<std::uint32_t>(integer_of(parameters, "processor.control_store_words"));
+  site.pixel_bits = static_cast<unsigned>(integer_of(parameters, "frame_memory.bits_per_pixel"));
+  if (half_space::is_complete_tree(scene)) {
+    const auto program = [&](const std::string& name) {
+      const Source* source = std::find_if(std::begin(kSources), std::end(kSources),
+                                          [&](const Source& s) { return name == s.name; });
+      DENDRO_CHECK(source != std::end(kSources), "{}", name);
+      return program_for(*source, parameters);
+    };
+    return half_space::make_tree_job(scene, program, site);
+  }
   if (half_space::needs_three_registers(scene))
     return half_space::make_hulls_job(scene, program_for(kHulls, parameters), site);
   return half_space::make_job(scene, program_for(kHalfSpace, parameters), site);
@@ -146,7 +161,9 @@ const std::vector<Algorithm>& algorithms() {
        make_half_space,
        {"planes", "plane_source", "directions", "unbounded", "starting_box", "boxing", "depth_bits",
         "depth_margin", "depth_range", "steep", "diffuse", "colour", "background", "registers", "near_shade", "far_shade",
-        "bands", "relief"}},
+        "bands", "relief", "roughness", "roughness_hurst", "texture", "texture_from", "texture_seed", "cube_bits", "layout",
+        "chunks", "chunk_edge", "chunk_colours", "texture_base", "texture_hurst", "texture_colours", "texels_per_metre",
+        "mip", "trunk_base", "trunk_range", "trunk_distance"}},
   };
   return list;
 }

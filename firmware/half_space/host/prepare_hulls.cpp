@@ -114,6 +114,9 @@ class HullsPreparation {
   Hull make_hull(const ObjectPlanes& planes, const Extent& extent, bool keep_from_screen) {
     Hull hull;
     hull.bounded = extent.bounded;
+    if (extent.has_depth())
+      hull.depth_extent = std::min<double>((extent.farthest - extent.nearest) * result_.depth.scale,
+                                           result_.maxdepth);
     hull.screen = to_screen(planes.planes, result_.view, result_.pixels_per_metre, result_.depth);
     if (keep_from_screen) hull.screen.push_back({0, 0, -1, 1, PlaneKind::kFront, 0});
     // No bits are left for a face number.

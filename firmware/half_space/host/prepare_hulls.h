@@ -19,6 +19,7 @@ struct Hull {
   PlaneProgram program;  ///< its first box and records; maxdepth, boxing and steep are those of the picture
   bool visible = true;   ///< false: outside the picture, nothing is sent
   bool bounded = true;
+  double depth_extent = 255;  ///< from its nearest to its farthest corner, units of the registers, 0..255
 };
 
 /// The trunk of one crown: a hull, or a painter's trapezium and no hull.

@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
+#include "firmware/half_space/host/hulls_layout.h"
 #include "firmware/half_space/reference/reference.h"
 #include "sim/base/check.h"
 
@@ -49,45 +51,91 @@ bool is_possibly_covered(const Span& span, double maxdepth) {
   return span.outside < kDrift && span.back < maxdepth + kDrift && span.back > span.front - 2 * kDrift;
 }
 
+/// How far a point lies inside a painter's trunk, in pixels along its line; negative outside.
+double inside_of(const Trapezium& trapezium, int x, int y) {
+  const Box& box = trapezium.box;
+  if (y < box.y0 || y > box.y1 || x < box.x0 || x > box.x1) return -INFINITY;
+  const int lines = y - box.y0;
+  return std::min(x - (trapezium.left + lines * trapezium.left_step),
+                  trapezium.right + lines * trapezium.right_step - x);
+}
+
+/// What is known of a pixel so far: the depth, and what the integers may make of it.
+struct Seen {
+  double depth;
+  int hull, lower, upper;
+};
+
 class Renderer {
  public:
-  Renderer(const PreparedHulls& prepared, HullsReference& picture) : prepared_(prepared), picture_(picture) {}
+  Renderer(const PreparedHulls& prepared, const FrontMove& move, HullsReference& picture)
+      : prepared_(prepared), move_(move), far_(prepared.maxdepth), picture_(picture) {}
 
   void pixel(int x, int y) {
-    const double far = prepared_.maxdepth;
-    double depth = far;
-    int seen = -1, lower = prepared_.maxdepth, upper = prepared_.maxdepth;
+    Seen seen{far_, -1, prepared_.maxdepth, prepared_.maxdepth};
     bool unbounded = false;
     for (std::size_t i = 0; i < prepared_.hulls.size(); ++i) {
       const Span span = span_at(prepared_.hulls[i].screen, x, y);
-      if (is_covered(span, far) && span.front < depth) depth = span.front, seen = static_cast<int>(i);
-      unbounded = unbounded || is_unbounded(span, far);
-      if (is_possibly_covered(span, far)) lower = std::min(lower, floor_of(span.front - kDrift));
-      if (is_surely_covered(span, far)) upper = std::min(upper, floor_of(span.front + kDrift));
+      unbounded = unbounded || is_unbounded(span, far_);
+      merge(span, i, move_ ? std::optional(move_(i, x, y)) : std::nullopt, seen);
     }
-    picture_.depth.push_back(depth);
-    picture_.hull.push_back(seen);
-    picture_.unbounded.push_back(unbounded && seen < 0);
-    picture_.lower.push_back(lower), picture_.upper.push_back(upper);
-    const Rgb& rgb = prepared_.shades[static_cast<std::size_t>(floor_of(depth))];
+    for (const Trunk& trunk : prepared_.trunks)
+      if (trunk.visible()) merge_trunk(trunk, x, y, seen);
+    picture_.depth.push_back(seen.depth);
+    picture_.hull.push_back(seen.hull);
+    picture_.unbounded.push_back(unbounded && seen.hull == -1);
+    picture_.lower.push_back(seen.lower), picture_.upper.push_back(seen.upper);
+    const Rgb& rgb = prepared_.shades[static_cast<std::size_t>(floor_of(seen.depth))];
     picture_.rgb.insert(picture_.rgb.end(), rgb.begin(), rgb.end());
   }
 
  private:
+  void merge(const Span& span, std::size_t hull, std::optional<int> move, Seen& seen) const {
+    const auto moved = [&](auto front) { return move ? std::max<decltype(front)>(1, front + *move) : front; };
+    const double front = moved(span.front);
+    if (is_covered(span, far_) && (!move || front < span.back) && front < seen.depth)
+      seen.depth = front, seen.hull = static_cast<int>(hull);
+    const int least = moved(floor_of(span.front - kDrift)), most = moved(floor_of(span.front + kDrift));
+    if (is_possibly_covered(span, far_) && (!move || least < floor_of(span.back + kDrift)))
+      seen.lower = std::min(seen.lower, least);
+    if (is_surely_covered(span, far_) && (!move || most < floor_of(span.back - kDrift)))
+      seen.upper = std::min(seen.upper, most);
+  }
+
+  void merge_trunk(const Trunk& trunk, int x, int y, Seen& seen) const {
+    bool wins, may_win, must_win;
+    if (trunk.painter) {
+      const double inside = inside_of(trunk.trapezium, x, y);
+      wins = inside >= 0 && seen.hull == -1;
+      may_win = inside > -kDrift && seen.upper == prepared_.maxdepth;
+      must_win = inside > kDrift && seen.lower == prepared_.maxdepth;
+    } else {
+      const Span span = span_at(trunk.hull.screen, x, y);
+      wins = is_covered(span, far_) && span.front < seen.depth;
+      may_win = is_possibly_covered(span, far_) && floor_of(span.front - kDrift) < seen.upper;
+      must_win = is_surely_covered(span, far_) && floor_of(span.front + kDrift) < seen.lower;
+    }
+    if (wins) seen.depth = kTrunkMark, seen.hull = HullsReference::kTrunkHull;
+    if (may_win) seen.lower = kTrunkMark;
+    if (must_win) seen.upper = kTrunkMark;
+  }
+
   int floor_of(double depth) const {
     return static_cast<int>(std::clamp(std::floor(depth), 0.0, static_cast<double>(prepared_.maxdepth)));
   }
 
   const PreparedHulls& prepared_;
+  const FrontMove& move_;
+  double far_;
   HullsReference& picture_;
 };
 
 }  // namespace
 
-HullsReference render_hulls_reference(const PreparedHulls& prepared) {
+HullsReference render_hulls_reference(const PreparedHulls& prepared, const FrontMove& move) {
   HullsReference picture;
   picture.width = prepared.width, picture.height = prepared.height;
-  Renderer renderer(prepared, picture);
+  Renderer renderer(prepared, move, picture);
   for (int y = 0; y < prepared.height; ++y)
     for (int x = 0; x < prepared.width; ++x) renderer.pixel(x, y);
   return picture;
@@ -111,12 +159,13 @@ ErrorReport compare(const HullsReference& reference, const std::vector<std::uint
   UnboundedPixels unbounded;
   std::int64_t outside = 0;
   for (std::size_t i = 0; i < nearest.size(); ++i) {
-    const bool covered = reference.hull[i] >= 0, drawn = nearest[i] < maxdepth;
+    const bool trunk = reference.hull[i] == HullsReference::kTrunkHull;
+    const bool covered = reference.hull[i] != -1, drawn = nearest[i] < maxdepth;
     report.covered_pixels += covered;
-    report.wrong_pixels += covered != drawn;
+    report.wrong_pixels += covered != drawn || (trunk && nearest[i] != kTrunkMark);
     unbounded.covered += covered, unbounded.unbounded += reference.unbounded[i];
     outside += nearest[i] < reference.lower[i] || nearest[i] > reference.upper[i];
-    const bool certain = covered && drawn && reference.upper[i] == reference.lower[i];
+    const bool certain = covered && !trunk && drawn && reference.upper[i] == reference.lower[i];
     if (certain)
       report.max_depth_error =
           std::max(report.max_depth_error, std::abs(nearest[i] + 0.5 - reference.depth[i]));
