@@ -92,6 +92,7 @@ void set_refused(TableRow& row, const UserError& error) {
 RunRequest request_of(const TableContext& context, const SceneRun& run) {
   RunArguments arguments;
   arguments.scene = run.scene;
+  arguments.machine = run.machine;
   arguments.level = run.level.empty() ? context.options.level : run.level;
   arguments.settings = context.options.settings;
   arguments.settings.insert(arguments.settings.end(), run.settings.begin(), run.settings.end());

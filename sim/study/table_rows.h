@@ -43,6 +43,7 @@ struct SceneRun {
   std::string level;                  ///< empty: the table's
   /// Words of the run's programs to count (`function` only); may be empty.
   std::function<std::map<std::uint32_t, std::string>(const RunRequest&)> counted;
+  std::string machine = {};  ///< NAME or NAME:PRESET; empty: the scene's
 };
 
 /// Throws UserError.
