@@ -176,7 +176,7 @@ int without_centre(bool prune) {
   for (std::uint64_t seed = 1; seed <= kManyTrees; ++seed) {
     GrowthParameters p = usual(seed);
     p.generations = 3;
-    p.mean_b = 0.3, p.ratio = 1;
+    p.mean_b = 0.3, p.ratio = 1;  // ASSUMED DEV-060
     p.mean_angle = 50 * kDegree, p.sigma_angle = 15 * kDegree;
     p.prune = prune;
     const Grown tree = half_space::grow(p);
@@ -187,7 +187,7 @@ int without_centre(bool prune) {
 
 void fill_centres(const TableContext&, std::vector<TableRow>& rows) {
   set_single(rows[0], without_centre(true));
-  rows[0].assumptions = {"DEV-045"};
+  rows[0].assumptions = {"DEV-045", "DEV-060"};
   rows[0].note = fmt::format(
       "{} trees of three generations split by 50 +- 15 degrees near their tips (mu_B 0.3, ratio 1); without pruning {} "
       "have their centre outside",

@@ -47,7 +47,10 @@ void fill_roughening(const TableContext& context, std::vector<TableRow>& rows) {
       {"pixel", [](const stats::RunObject& run) { return machine_seconds(run) * run.clock_hz / kPixels; }}};
   const Propagated covered = propagate_probe(context, roughen_probe("FG86 roughen", 100, 250), metrics);
   const Propagated empty = propagate_probe(context, roughen_probe("FG86 roughen empty", 0, 0), metrics);
-  for (std::size_t i = 0; i < metrics.size(); ++i) set_metric(rows[i], covered, metrics, i);
+  for (std::size_t i = 0; i < metrics.size(); ++i) {
+    set_metric(rows[i], covered, metrics, i);
+    rows[i].assumptions.insert(rows[i].assumptions.begin(), "DEV-053");
+  }
   rows[0].note = fmt::format(
       "every pixel of the box covered; {:.3f} s when none is. The field is a tile of 64 x 64 that repeats (DEV-053), made "
       "once in {:.3f} s; interpolation or a random number for each pixel would account for more",
@@ -152,6 +155,7 @@ void fill_mapping(const TableContext& context, std::vector<TableRow>& rows) {
       {"pixels", [](const stats::RunObject& run) { return kPixels / machine_seconds(run) / kFrames; }}};
   const Propagated p = propagate_probe(context, colour_probe("FG86 colour", kObject, kObject, 100), metrics);
   set_metric(rows[0], p, metrics, 0);
+  rows[0].assumptions.insert(rows[0].assumptions.begin(), "DEV-054");
   rows[0].note = fmt::format("{:.1f} ticks a pixel; {:.0f} frames for the tree pixels of one",
                              machine_seconds(p.nominal) * p.nominal.clock_hz / kPixels, 80000 / *rows[0].simulated);
 }

@@ -52,6 +52,8 @@ void fill_generation(const TableContext& context, std::vector<TableRow>& rows) {
   set_metric(rows[1], fbm, metrics, 0);
   set_metric(rows[2], fbm, metrics, 1);
   set_metric(rows[3], fbm, metrics, 2);
+  for (std::size_t i = 0; i < rows.size(); ++i)
+    rows[i].assumptions.insert(rows[i].assumptions.begin(), i == 0 ? "DEV-051" : "DEV-050");
   const auto ticks = [](const Propagated& p) { return without_levels(p.nominal) * p.nominal.clock_hz / kTexels; };
   rows[0].note = fmt::format("32^3 texels, 1,000 chunks of edge 2 (DEV-051): {:.0f} ticks a texel, the paper 153",
                              ticks(chunks));

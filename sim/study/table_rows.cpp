@@ -10,7 +10,7 @@ namespace dendro::study {
 namespace {
 
 /// Points of the Latin hypercube that `--full` adds to the corners.
-constexpr int kSamples = 200;
+constexpr int kSamples = 100;
 
 /// The number in "FG86-A12c", then what follows it.
 std::pair<int, std::string> order(const std::string& id) {
