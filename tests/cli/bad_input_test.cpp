@@ -98,7 +98,7 @@ TEST_F(BadInput, APictureTheFrameBufferCannotHold) {
 
 TEST_F(BadInput, SplittingThatLeavesNoPlane) {
   const std::string tree = "tree = \"round\"\nstart = [[0.01, 1, 0.01]]\ngenerations = 6\nmu_alpha = 75\n"
-                           "sigma_alpha = 20\nmu_b = 0.3\nkeep_parent = false\nseed = 1\n";
+                           "sigma_alpha = 20\nmu_b = 0.3\nkeep_parent = false\nseed = 2\n";
   write("s.toml", scene_with(tree, "[half_space]\nroughness = 0.1\n"));
   expect_user_error("run s.toml", "s.toml:11: object.tree: splitting leaves no plane");
 }
