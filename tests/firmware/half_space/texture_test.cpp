@@ -51,7 +51,8 @@ class Noisy {
       }
     }
     for (std::uint32_t pixel = 0; pixel < kPixels; ++pixel)
-      ASSERT_EQ(machine_.read(address_of(pixel), bps32::kFnLores), wanted[pixel]) << what << ", pixel " << pixel;
+      ASSERT_EQ(machine_.read(address_of(pixel), bps32::kFnLores), wanted[pixel])
+          << what << ", pixel " << pixel;
     machine_.write(0, ~0u, bps32::kFnLores);
     EXPECT_EQ(machine_.read(0, bps32::kFnLores), pixel_mask_) << what << ": the write mask is not restored";
   }
@@ -82,7 +83,8 @@ void expect_exact(const TextureSettings& settings, const lib::ProgramImage& imag
   noisy.expect_cube(make_texture(settings), layout, what);
 }
 
-class TextureMicrocode : public testing::TestWithParam<std::tuple<TextureKind, unsigned, bool, std::string>> {};
+class TextureMicrocode : public testing::TestWithParam<std::tuple<TextureKind, unsigned, bool, std::string>> {
+};
 
 TEST_P(TextureMicrocode, EveryByteOfEveryLevelIsThatOfTheIntegerModelAndOtherBitsStay) {
   const auto [kind, bits, wide, pack] = GetParam();
@@ -98,9 +100,11 @@ TEST_P(TextureMicrocode, EveryByteOfEveryLevelIsThatOfTheIntegerModelAndOtherBit
 
 INSTANTIATE_TEST_SUITE_P(Cubes, TextureMicrocode,
                          testing::Combine(testing::Values(TextureKind::kChunks, TextureKind::kFbm),
-                                          testing::Values(4u, 5u), testing::Bool(), testing::Values("none", "full")),
+                                          testing::Values(4u, 5u), testing::Bool(),
+                                          testing::Values("none", "full")),
                          [](const auto& test) {
-                           return std::string(std::get<0>(test.param) == TextureKind::kFbm ? "Fbm" : "Chunks") +
+                           return std::string(std::get<0>(test.param) == TextureKind::kFbm ? "Fbm"
+                                                                                           : "Chunks") +
                                   std::to_string(std::get<1>(test.param)) +
                                   (std::get<2>(test.param) ? "Wide" : "Half") + std::get<3>(test.param);
                          });
