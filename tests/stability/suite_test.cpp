@@ -117,7 +117,7 @@ TEST_P(Faulty, EveryCaseFailsOnAMachineWithAFaultAndSaysWhere) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Cases, Faulty,
-                         ::testing::Values("N-A1", "N-A2", "N-A3", "N-A4", "N-A5", "N-A10", "X1", "X2", "X3",
+                         ::testing::Values("N-A1", "N-A2", "N-A3", "N-A4", "N-A5", "N-A7", "N-A8", "N-A10", "X1", "X2", "X3",
                                            "X4", "X6"),
                          [](const auto& tested) {
                            std::string name = tested.param;

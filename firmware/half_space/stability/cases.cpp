@@ -9,6 +9,8 @@ std::vector<stability::Case> stability_cases() {
       {"N-A3", "planes exactly edge-on are exact half-plane tests", edge_on_planes},
       {"N-A4", "depth registers of 6 to 24 bits: pixels lost at the silhouette", register_width},
       {"N-A5", "front = back, coincident duplicates, permuted planes", ties},
+      {"N-A7", "texture index of negative coordinates, modulo the cube's side", texture_index},
+      {"N-A8", "incremental texture coordinates of a roughened surface against exact ones", texture_drift},
       {"N-A10", "corner cases of the 16x16 multiplier", multiplier},
       {"X1", "permute the planes inside a pass", permuted_planes},
       {"X2", "rotate by 90 degrees about the view axis", quarter_turn},
