@@ -116,8 +116,8 @@ void fill_grove(const TableContext& context, std::vector<TableRow>& rows) {
     widen(rows[2], 100 * other.together / other.screen);
   }
   rows[0].note = fmt::format(
-      "the grove's trees cover {:.0f} pixels one by one and {:.0f} together; its trees are larger than 20x20, so that "
-      "crowns of round outline fill the quarter on which they stand; the paper divides 200 x 400 by 65,536",
+      "the trees cover {:.0f} pixels one by one and {:.0f} together: they stand on a quarter of the screen and overlap, and are "
+      "larger than 20x20 so that crowns of round outline fill it; the paper divides 200 x 400 by 65,536 pixels",
       grove.alone, grove.together);
   rows[1].note = "interval: smallest and largest tree; circular: the scene's sizes follow the same sentence";
   rows[2].note = fmt::format("interval: {} other groves; circular: the trees stand on a quarter of the screen", kGroves);

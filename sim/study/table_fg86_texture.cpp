@@ -55,7 +55,8 @@ void fill_generation(const TableContext& context, std::vector<TableRow>& rows) {
   for (std::size_t i = 0; i < rows.size(); ++i)
     rows[i].assumptions.insert(rows[i].assumptions.begin(), i == 0 ? "DEV-051" : "DEV-050");
   const auto ticks = [](const Propagated& p) { return without_levels(p.nominal) * p.nominal.clock_hz / kTexels; };
-  rows[0].note = fmt::format("32^3 texels, 1,000 chunks of edge 2 (DEV-051): {:.0f} ticks a texel, the paper 153",
+  rows[0].note = fmt::format("32^3 texels, 1,000 chunks of edge 2 (DEV-051): {:.0f} ticks a texel, the paper 153: filling a cube and placing small "
+                              "blocks is less work than the paper's second has room for; fBm is not",
                              ticks(chunks));
   rows[1].note = fmt::format(
       "32^3 texels, midpoint displacement (DEV-050): {:.0f} ticks a texel, the paper 153; a texel is made from 8 bytes "

@@ -1,38 +1,18 @@
 #include <gtest/gtest.h>
 
-#include <fstream>
-#include <iterator>
 #include <random>
 
 #include "firmware/half_space/host/texture_program.h"
 #include "firmware/half_space/reference/texture_model.h"
-#include "firmware/tools/assembler.h"
-#include "models/machines/rds3000/function.h"
-#include "models/parts/bps32/bps32_isa.h"
+#include "tests/firmware/half_space/program_on_machine.h"
 
 namespace dendro::half_space {
 namespace {
 
 constexpr std::uint32_t kPixels = 512 * 512;
 
-std::string text_of(const std::string& path) {
-  std::ifstream in(path);
-  return {std::istreambuf_iterator<char>(in), {}};
-}
-
 lib::ProgramImage microcode(const std::string& pack) {
-  tools::AssembleOptions options;
-  options.pack = pack;
-  options.include = [](const std::string& path) {
-    return std::optional(text_of(std::string(REPOSITORY) + "/" + path));
-  };
-  const tools::Ucode ucode = tools::assemble(text_of(TEXTURE_MICROCODE), TEXTURE_MICROCODE, options).ucode;
-  lib::ProgramImage image;
-  image.words = ucode.words;
-  image.entry = ucode.entry;
-  for (const auto& [name, area] : ucode.scratch) image.scratch[name] = {area.address, area.size};
-  image.initial_scratch = ucode.scratch_data;
-  return image;
+  return testing_programs::assembled("firmware/half_space/rds3000/texture.gia", pack);
 }
 
 TextureSettings settings_of(TextureKind kind, unsigned bits, bool wide, std::uint64_t seed) {
