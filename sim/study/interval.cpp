@@ -151,8 +151,8 @@ constexpr std::uint64_t kSampleSeed = 1986;
 // Not std::uniform_real_distribution and std::shuffle: their numbers differ between libraries.
 double uniform(std::mt19937_64& random) { return static_cast<double>(random() >> 11) / 9007199254740992.0; }
 
-/// The parameter's value at a share of its range: integers uniform over the range inclusive, reals uniform, or
-/// uniform in the logarithm where that is meant.
+/// The parameter's value at a share of its range: integers uniform over the range inclusive, reals uniform,
+/// or uniform in the logarithm where that is meant.
 Value at_share(const Parameter& p, double u) {
   if (!p.spread->low) {
     const auto& choices = p.spread->choices;
@@ -188,8 +188,8 @@ std::vector<Assignment> latin_hypercube(const std::vector<Parameter>& parameters
     std::iota(strata.begin(), strata.end(), std::size_t{0});
     for (std::size_t i = strata.size(); i > 1; --i) std::swap(strata[i - 1], strata[random() % i]);
     for (std::size_t i = 0; i < points.size(); ++i)
-      points[i][p.key] =
-          at_share(p, (static_cast<double>(strata[i]) + uniform(random)) / static_cast<double>(points.size()));
+      points[i][p.key] = at_share(
+          p, (static_cast<double>(strata[i]) + uniform(random)) / static_cast<double>(points.size()));
   }
   return points;
 }

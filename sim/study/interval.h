@@ -51,9 +51,9 @@ std::vector<Assignment> latin_hypercube(const std::vector<config::Parameter>& pa
 
 /// Propagates every assumption's range through the run: all low, all high, each parameter at each of its ends
 /// and choices alone, and per metric the two corners made of each parameter's faster and slower end;
-/// `samples` adds as many points of a Latin hypercube over all ranges at once (seeded, always the same). A combination that
-/// the machine refuses puts the key it blames back to its nominal value and is tried again. Nothing is
-/// skipped: a parameter without effect shows as a contribution of width 0.
+/// `samples` adds as many points of a Latin hypercube over all ranges at once (seeded, always the same). A
+/// combination that the machine refuses puts the key it blames back to its nominal value and is tried again.
+/// Nothing is skipped: a parameter without effect shows as a contribution of width 0.
 std::vector<Interval> propagate(const RunRequest& request, const stats::RunObject& nominal,
                                 const std::vector<Metric>& metrics, const RunMaker& make_runs,
                                 int samples = 0);

@@ -7,8 +7,8 @@
 namespace dendro::study {
 namespace {
 
-/// A setting that every scene of the table refuses is the user's mistake; one that some take costs the rows of
-/// the others.
+/// A setting that every scene of the table refuses is the user's mistake; one that some take costs the rows
+/// of the others.
 void check(const TableContext& context) {
   check_level(context);
   std::optional<UserError> first;

@@ -80,11 +80,11 @@ void fill_starts(const TableContext&, std::vector<TableRow>& rows) {
 std::vector<TableRow> start_claims() {
   std::vector<TableRow> rows;
   for (int normals = kFewestStarts; normals <= kMostStarts; ++normals)
-    rows.push_back(
-        claim(fmt::format("FG86-A12{}", static_cast<char>('a' + normals - kFewestStarts)),
-              fmt::format("unbounded pixels of crowns from {} start normals", normals), "%", std::nullopt,
-              "\"three to six give the best results\": share of the pixels with a crown, in a picture five radii "
-              "high, where no plane bounds it behind"));
+    rows.push_back(claim(
+        fmt::format("FG86-A12{}", static_cast<char>('a' + normals - kFewestStarts)),
+        fmt::format("unbounded pixels of crowns from {} start normals", normals), "%", std::nullopt,
+        "\"three to six give the best results\": share of the pixels with a crown, in a picture five radii "
+        "high, where no plane bounds it behind"));
   return rows;
 }
 
@@ -106,8 +106,8 @@ void fill_generations(const TableContext&, std::vector<TableRow>& rows) {
     for (int starts = 3; starts <= 8; ++starts, ++all)
       exact += planes(n, starts, 1, false) == std::ldexp(starts, n);
   set_single(rows[0], planes(kGenerations, kStarts, 1, false));
-  rows[0].note = fmt::format(
-      "without pruning 2^n N in {:g} of {:g} trees with n = 0 to 5 and N = 3 to 8", exact, all);
+  rows[0].note =
+      fmt::format("without pruning 2^n N in {:g} of {:g} trees with n = 0 to 5 and N = 3 to 8", exact, all);
   double sum = 0, least = INFINITY, most = 0;
   for (std::uint64_t seed = 1; seed <= kTrees; ++seed) {
     const double count = planes(kGenerations, kStarts, seed, true);
@@ -115,8 +115,8 @@ void fill_generations(const TableContext&, std::vector<TableRow>& rows) {
   }
   set_range(rows[1], sum / kTrees, least, most);
   rows[1].assumptions = {"DEV-045"};
-  rows[1].note = fmt::format("mean of {} trees; with pruning 2^n N is an upper bound: no tree has more than {:g}",
-                             kTrees, most);
+  rows[1].note = fmt::format(
+      "mean of {} trees; with pruning 2^n N is an upper bound: no tree has more than {:g}", kTrees, most);
 }
 
 /// The sixth split and all before it.
@@ -138,19 +138,22 @@ void fill_operations(const TableContext&, std::vector<TableRow>& rows) {
   const double flops = static_cast<double>(printed.flops) / splits;
   const double steps = static_cast<double>(printed.flops + printed.look_ups) / splits;
   set_range(rows[0], flops, flops, steps);
-  rows[0].note = fmt::format("{:.1f} operations and {:.1f} look-ups (gauss, cosine) a split, mean of {:g} splits",
-                             flops, steps - flops, splits);
+  rows[0].note =
+      fmt::format("{:.1f} operations and {:.1f} look-ups (gauss, cosine) a split, mean of {:g} splits", flops,
+                  steps - flops, splits);
   set_range(rows[1], static_cast<double>(everything.flops) / splits,
             static_cast<double>(everything.flops) / splits,
             static_cast<double>(everything.flops + everything.look_ups + everything.comparisons) / splits);
   rows[1].note =
-      "high: look-ups and comparisons counted, too; \"less than 20\" holds only for the printed steps, which leave "
+      "high: look-ups and comparisons counted, too; \"less than 20\" holds only for the printed steps, which "
+      "leave "
       "out the children's origin and directions in space and the pruning";
   constexpr double kSplitsPerSecond = 200.0 * 6 * 60;
   set_range(rows[2], flops * kSplitsPerSecond / 1e6, flops * kSplitsPerSecond / 1e6,
             steps * kSplitsPerSecond / 1e6);
-  rows[2].note = fmt::format("200 trees of 6 splits at 60 frames a second, {:.0f} to {:.0f} operations a split (A18a)",
-                             flops, steps);
+  rows[2].note =
+      fmt::format("200 trees of 6 splits at 60 frames a second, {:.0f} to {:.0f} operations a split (A18a)",
+                  flops, steps);
 }
 
 void fill_level_of_detail(const TableContext&, std::vector<TableRow>& rows) {
@@ -167,7 +170,8 @@ void fill_level_of_detail(const TableContext&, std::vector<TableRow>& rows) {
   set_single(rows[0], splits);
   int pruned = 0;
   for (std::uint64_t seed = 1; seed <= kTrees; ++seed) pruned += split_six_times(seed).pruned;
-  rows[0].note = fmt::format("every split adds one plane; pruning took {} planes of {} such trees", pruned, kTrees);
+  rows[0].note =
+      fmt::format("every split adds one plane; pruning took {} planes of {} such trees", pruned, kTrees);
 }
 
 /// Trees that a plane cuts so that their centre is outside.
@@ -189,7 +193,8 @@ void fill_centres(const TableContext&, std::vector<TableRow>& rows) {
   set_single(rows[0], without_centre(true));
   rows[0].assumptions = {"DEV-045", "DEV-060"};
   rows[0].note = fmt::format(
-      "{} trees of three generations split by 50 +- 15 degrees near their tips (mu_B 0.3, ratio 1); without pruning {} "
+      "{} trees of three generations split by 50 +- 15 degrees near their tips (mu_B 0.3, ratio 1); without "
+      "pruning {} "
       "have their centre outside",
       kManyTrees, without_centre(false));
 }
@@ -220,7 +225,8 @@ void fill_tips(const TableContext&, std::vector<TableRow>& rows) {
   }
   set_range(rows[0], still, 0, still);
   rows[0].note = fmt::format(
-      "largest of {} splits without noise: rounding of doubles; with the usual noise of the lengths {:.3f} on average",
+      "largest of {} splits without noise: rounding of doubles; with the usual noise of the lengths {:.3f} "
+      "on average",
       kManyTrees, noisy);
 }
 
@@ -234,8 +240,9 @@ std::vector<RowGroup> fg86_growth_groups() {
        fill_generations},
       {"trees grown with 3 to 8 start normals", start_claims(), fill_starts},
       {"operations of splits, counted while trees grow",
-       {claim("FG86-A18a", "operations of a split: steps 1 to 4 as printed", "1", 20.0,
-              "\"less than 20 floating point operations and/or lookup steps\": from operations alone to both"),
+       {claim(
+            "FG86-A18a", "operations of a split: steps 1 to 4 as printed", "1", 20.0,
+            "\"less than 20 floating point operations and/or lookup steps\": from operations alone to both"),
         claim("FG86-A18b", "operations of a split in space, all of it", "1", 20.0, "the same sentence"),
         claim("FG86-A21", "rate of splitting for 200 trees at 60 Hz", "MFLOPS", 1.4,
               "from operations alone to operations and look-ups")},

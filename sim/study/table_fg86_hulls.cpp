@@ -37,14 +37,16 @@ void fill_box(TableRow& row, const stats::RunObject& run) {
   const double unboxed = planes * run.image.width * run.image.height;
   DENDRO_CHECK(visits > 0 && unboxed > 0);
   set_single(row, 100 * visits / unboxed);
-  row.note = fmt::format("{:.3g} million visits; {:g} planes over the whole picture would make {:.3g} million",
-                         visits / 1e6, planes, unboxed / 1e6);
+  row.note =
+      fmt::format("{:.3g} million visits; {:g} planes over the whole picture would make {:.3g} million",
+                  visits / 1e6, planes, unboxed / 1e6);
 }
 
 void fill_merge(TableRow& row, const stats::RunObject& run) {
   set_single(row, error_figure(run, "outside_enclosure"));
   row.note = fmt::format(
-      "{:g} hulls, {} pixels covered; {} pixels at silhouettes thinner than one of 256 depths are covered in one and "
+      "{:g} hulls, {} pixels covered; {} pixels at silhouettes thinner than one of 256 depths are covered in "
+      "one and "
       "not the other",
       fact(run, "hulls"), run.error.covered_pixels, run.error.wrong_pixels);
 }
@@ -116,11 +118,14 @@ void fill_grove(const TableContext& context, std::vector<TableRow>& rows) {
     widen(rows[2], 100 * other.together / other.screen);
   }
   rows[0].note = fmt::format(
-      "the trees cover {:.0f} pixels one by one and {:.0f} together: they stand on a quarter of the screen and overlap, and are "
-      "larger than 20x20 so that crowns of round outline fill it; the paper divides 200 x 400 by 65,536 pixels",
+      "the trees cover {:.0f} pixels one by one and {:.0f} together: they stand on a quarter of the screen "
+      "and overlap, and are "
+      "larger than 20x20 so that crowns of round outline fill it; the paper divides 200 x 400 by 65,536 "
+      "pixels",
       grove.alone, grove.together);
   rows[1].note = "interval: smallest and largest tree; circular: the scene's sizes follow the same sentence";
-  rows[2].note = fmt::format("interval: {} other groves; circular: the trees stand on a quarter of the screen", kGroves);
+  rows[2].note =
+      fmt::format("interval: {} other groves; circular: the trees stand on a quarter of the screen", kGroves);
 }
 
 void fill_storage(const TableContext& context, std::vector<TableRow>& rows) {
@@ -131,9 +136,10 @@ void fill_storage(const TableContext& context, std::vector<TableRow>& rows) {
   set_single(rows[0], static_cast<double>(prepared.program.record_words().size()));
   const double faces = static_cast<double>(prepared.screen.size());
   set_single(rows[1], 3 * static_cast<double>(corners->size()) + 3 * faces);
-  rows[0].note = fmt::format("records of {:g} planes as the scratchpad holds them; 4 F words without steep ones", faces);
-  rows[1].note = fmt::format("{} corners of 3 numbers and {:g} triangles of 3 indices: 4.5 F + 6 words", corners->size(),
-                             faces);
+  rows[0].note =
+      fmt::format("records of {:g} planes as the scratchpad holds them; 4 F words without steep ones", faces);
+  rows[1].note = fmt::format("{} corners of 3 numbers and {:g} triangles of 3 indices: 4.5 F + 6 words",
+                             corners->size(), faces);
 }
 
 template <std::size_t N>
@@ -141,33 +147,35 @@ std::vector<TableRow> scene_claims(const char* const (&scenes)[N], const std::st
                                    const char* unit, std::optional<double> published, const char* reading) {
   std::vector<TableRow> rows;
   for (std::size_t i = 0; i < N; ++i)
-    rows.push_back(claim(id + static_cast<char>('a' + i), fmt::format("{}, {}", what, scenes[i]), unit, published,
-                         reading));
+    rows.push_back(claim(id + static_cast<char>('a' + i), fmt::format("{}, {}", what, scenes[i]), unit,
+                         published, reading));
   return rows;
 }
 
 }  // namespace
 
 std::vector<RowGroup> fg86_hull_groups() {
-  return {
-      {"the grove's trees on integers, one by one and together",
-       {claim("FG86-A19a", "depth complexity of 200 trees", "1", 1.22),
-        claim("FG86-A19b", "pixels of a tree of the grove", "px", 400.0, "20x20"),
-        claim("FG86-A19c", "share of the screen under 200 trees", "%", 25.0)},
-       fill_grove},
-      {"",
-       {claim("FG86-A29a", "words of an icosahedron as planes", "1", 80.0, "4 F with F = 20"),
-        claim("FG86-A29b", "words of an icosahedron as a mesh", "1", 96.0, "\"a little less\": 4.5 F + 6 with F = 20")},
-       fill_storage},
-      {"shipped scenes at level function, their pixel visits",
-       scene_claims(kBoxedScenes, "FG86-A33", "boxing: pixel visits left", "%", std::nullopt,
-                    "\"eliminates a great many scanlines\": pixels visited in passes 1 and 2, of those without any box"),
-       fill_boxes},
-      {"the same runs of several hulls, their third register against the exact union",
-       scene_claims(kMergedScenes, "FG86-A34", "intersecting hulls: wrong nearest depths", "px", 0.0,
-                    "\"the correct result will be obtained\": pixels whose third register is not the least front depth "
-                    "of the hulls"),
-       fill_merges}};
+  return {{"the grove's trees on integers, one by one and together",
+           {claim("FG86-A19a", "depth complexity of 200 trees", "1", 1.22),
+            claim("FG86-A19b", "pixels of a tree of the grove", "px", 400.0, "20x20"),
+            claim("FG86-A19c", "share of the screen under 200 trees", "%", 25.0)},
+           fill_grove},
+          {"",
+           {claim("FG86-A29a", "words of an icosahedron as planes", "1", 80.0, "4 F with F = 20"),
+            claim("FG86-A29b", "words of an icosahedron as a mesh", "1", 96.0,
+                  "\"a little less\": 4.5 F + 6 with F = 20")},
+           fill_storage},
+          {"shipped scenes at level function, their pixel visits",
+           scene_claims(kBoxedScenes, "FG86-A33", "boxing: pixel visits left", "%", std::nullopt,
+                        "\"eliminates a great many scanlines\": pixels visited in passes 1 and 2, of those "
+                        "without any box"),
+           fill_boxes},
+          {"the same runs of several hulls, their third register against the exact union",
+           scene_claims(kMergedScenes, "FG86-A34", "intersecting hulls: wrong nearest depths", "px", 0.0,
+                        "\"the correct result will be obtained\": pixels whose third register is not the "
+                        "least front depth "
+                        "of the hulls"),
+           fill_merges}};
 }
 
 }  // namespace dendro::study

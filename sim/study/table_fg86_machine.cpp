@@ -20,8 +20,8 @@ bool starts_with(const std::string& text, const std::string& start) {
   return text.compare(0, start.size(), start) == 0;
 }
 
-/// How a mode of the image memory is addressed by a program: pixels a side, the step of the address registers,
-/// the name of the access.
+/// How a mode of the image memory is addressed by a program: pixels a side, the step of the address
+/// registers, the name of the access.
 struct Mode {
   int side;
   int step;
@@ -42,11 +42,14 @@ std::string memory_program(const Mode& fill, const Mode& count) {
   return "scratch pixels[1] @ 0;\nscratch bits[1] @ 1;\nreg x = r0;\nreg y = r1;\nreg n = r2;\nreg p = r3;\n"
          "reg first = r4;\nentry start;\nstart:\n  n = -1;\n  bus_data = n;\n" +
          sweep(fill, "fill", fmt::format("    write {};\n", fill.access)) +
-         fmt::format("  x = 0;\n  bus_x = x;\n  bus_y = x;\n  read {};\n  first = bus;\n  n = 0;\n", count.access) +
+         fmt::format("  x = 0;\n  bus_x = x;\n  bus_y = x;\n  read {};\n  first = bus;\n  n = 0;\n",
+                     count.access) +
          sweep(count, "count",
-               fmt::format("    read {};\n    p = bus;\n    p - first -> flags;\n    if (zero) {{ n = n + 1; }}\n",
-                           count.access)) +
-         "  pixels[0] = n;\n  n = 0;\n  p = 1;\n  for 32 {\n    first & p -> flags;\n    if (!zero) { n = n + 1; }\n"
+               fmt::format(
+                   "    read {};\n    p = bus;\n    p - first -> flags;\n    if (zero) {{ n = n + 1; }}\n",
+                   count.access)) +
+         "  pixels[0] = n;\n  n = 0;\n  p = 1;\n  for 32 {\n    first & p -> flags;\n    if (!zero) { n = n "
+         "+ 1; }\n"
          "    p = p + p;\n  }\n  bits[0] = n;\n  halt;\n";
 }
 
@@ -56,24 +59,27 @@ struct Memory {
 
 /// What a mode's program finds of the ones that the other's has left.
 Memory measure_memory(const TableContext& context, const Mode& fill, const Mode& count) {
-  const ExecOutput output = exec_text(context, "image_memory.gia", memory_program(fill, count), {}, "function",
-                                      {{0, 2}});
+  const ExecOutput output =
+      exec_text(context, "image_memory.gia", memory_program(fill, count), {}, "function", {{0, 2}});
   return {static_cast<double>(output.dumps.at(0).at(0)), static_cast<double>(output.dumps.at(0).at(1))};
 }
 
 void fill_memory(const TableContext& context, std::vector<TableRow>& rows) {
-  const Memory lores = measure_memory(context, kHires, kLores), hires = measure_memory(context, kLores, kHires);
+  const Memory lores = measure_memory(context, kHires, kLores),
+               hires = measure_memory(context, kLores, kHires);
   const double bits = std::floor(lores.bits / 3);
   set_single(rows[0], std::exp2(bits));
   rows[0].note = fmt::format(
-      "{:g} bits a pixel, counted by a microprogram, in three; the programs use {} bits each; two registers of {:g} bits "
+      "{:g} bits a pixel, counted by a microprogram, in three; the programs use {} bits each; two registers "
+      "of {:g} bits "
       "would have {:g} depths",
       lores.bits, half_space::kHullBits, std::floor(lores.bits / 2), std::exp2(std::floor(lores.bits / 2)));
   set_single(rows[1], lores.pixels * lores.bits);
   rows[1].note = fmt::format("{:.0f} pixels of {:g} bits hold the ones that were written in the other mode",
                              lores.pixels, lores.bits);
   set_single(rows[2], hires.pixels * hires.bits);
-  rows[2].note = fmt::format("{:.0f} pixels of {:g} bits; all ones written in the other mode", hires.pixels, hires.bits);
+  rows[2].note =
+      fmt::format("{:.0f} pixels of {:g} bits; all ones written in the other mode", hires.pixels, hires.bits);
 }
 
 void fill_sizes(const TableContext& context, std::vector<TableRow>& rows) {
@@ -96,8 +102,7 @@ void fill_multiply(const TableContext& context, std::vector<TableRow>& rows) {
       "mark_end;\n"
       "mark_end:\n  halt;\n";
   // A taken branch would be counted with the product it waited for.
-  const ExecOutput output =
-      exec_text(context, "multiply.gia", text, {"processor.taken_branch_ticks=0"});
+  const ExecOutput output = exec_text(context, "multiply.gia", text, {"processor.taken_branch_ticks=0"});
   const auto& marks = output.object.marks;
   DENDRO_CHECK(marks.size() == 2, "{} marks", marks.size());
   const double ticks = static_cast<double>(marks[1].second - marks[0].second - 1);
@@ -136,7 +141,8 @@ void fill_fixed_multiply(const TableContext& context, std::vector<TableRow>& row
   rows[0].note = fmt::format("counted over {} products of random numbers; N-A10 checks them", kFixedPairs);
   set_range(rows[1], sum / pairs, least, most);
   rows[1].note =
-      "8 are the multiplier's own ticks; operands, sums and the unsigned low halves, which a signed unit takes for "
+      "8 are the multiplier's own ticks; operands, sums and the unsigned low halves, which a signed unit "
+      "takes for "
       "negative, take the rest; interval over random numbers";
 }
 
@@ -193,7 +199,8 @@ void fill_additions(const TableContext& context, std::vector<TableRow>& rows) {
   for (const Outcome& outcome : compared_runs(context, runs, "FG86 additions"))
     added.push_back(additions_per_visit(from_bytes(outcome.value()).object));
   set_range(rows[0], added[0], std::min(added[0], added[1]), std::max(added[0], added[1]));
-  rows[0].note = "executions of the microwords that add to a depth, per pixel visited with a depth; packed and not";
+  rows[0].note =
+      "executions of the microwords that add to a depth, per pixel visited with a depth; packed and not";
 }
 
 }  // namespace

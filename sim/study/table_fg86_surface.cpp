@@ -33,10 +33,12 @@ void put_pixels(HostPort& host, int width, int height, std::uint32_t word) {
 
 /// Roughens a box of 250 x 250 pixels that all hold this front and back.
 Probe roughen_probe(const std::string& name, std::uint32_t front, std::uint32_t back) {
-  const auto run = [=](HostPort& host, lib::RdsDriver& driver, const lib::ProgramImage& image, Probe::Facts&) {
+  const auto run = [=](HostPort& host, lib::RdsDriver& driver, const lib::ProgramImage& image,
+                       Probe::Facts&) {
     put_pixels(host, kObject, kObject, front | back << 8);
-    half_space::run_roughen(driver, image,
-                            half_space::make_roughening({0.05, 0.5}, 200, {0, 0, kObject - 1, kObject - 1}, 255, 1, 1));
+    half_space::run_roughen(
+        driver, image,
+        half_space::make_roughening({0.05, 0.5}, 200, {0, 0, kObject - 1, kObject - 1}, 255, 1, 1));
   };
   return {name, kMachine, kRoughen, run, {}};
 }
@@ -52,15 +54,18 @@ void fill_roughening(const TableContext& context, std::vector<TableRow>& rows) {
     rows[i].assumptions.insert(rows[i].assumptions.begin(), "DEV-053");
   }
   rows[0].note = fmt::format(
-      "every pixel of the box covered; {:.3f} s when none is. The field is a tile of 64 x 64 that repeats (DEV-053), made "
+      "every pixel of the box covered; {:.3f} s when none is. The field is a tile of 64 x 64 that repeats "
+      "(DEV-053), made "
       "once in {:.3f} s; interpolation or a random number for each pixel would account for more",
       metrics[0].of(empty.nominal), phase_seconds(covered.nominal, "grow"));
-  rows[1].note = fmt::format("{:.1f} for an empty pixel; 80 are the paper's 1.0 s over 62,500 pixels", metrics[1].of(empty.nominal));
+  rows[1].note = fmt::format("{:.1f} for an empty pixel; 80 are the paper's 1.0 s over 62,500 pixels",
+                             metrics[1].of(empty.nominal));
 }
 
 /// The picture as colour.gia finds it: every pixel at one nearest depth.
 Probe colour_probe(const std::string& name, int width, int height, std::uint32_t nearest) {
-  const auto run = [=](HostPort& host, lib::RdsDriver& driver, const lib::ProgramImage& image, Probe::Facts& facts) {
+  const auto run = [=](HostPort& host, lib::RdsDriver& driver, const lib::ProgramImage& image,
+                       Probe::Facts& facts) {
     put_pixels(host, width, height, nearest << 16);
     half_space::ColourSettings settings;
     settings.trunk_base = {60, 30, 10}, settings.trunk_range = {40, 20, 10};
@@ -68,8 +73,8 @@ Probe colour_probe(const std::string& name, int width, int height, std::uint32_t
     map.linear = {{0.5, 0.1, 0.2}, {-0.1, 0.5, 0.3}, {0.2, 0.2, 0.5}};
     const auto trunk = nearest == 0 ? static_cast<std::size_t>(width) * static_cast<std::size_t>(height) : 0;
     half_space::run_colour(driver, image,
-                           half_space::make_colouring(settings, map, half_space::cube_layout(5, false), width, height,
-                                                      trunk, 1, 2));
+                           half_space::make_colouring(settings, map, half_space::cube_layout(5, false), width,
+                                                      height, trunk, 1, 2));
     std::array<double, 3> least = {255, 255, 255}, most = {0, 0, 0};
     std::vector<std::uint32_t> line(static_cast<std::size_t>(width));
     for (int y = 0; y < height; ++y) {
@@ -99,18 +104,20 @@ void fill_bark(const TableContext& context, std::vector<TableRow>& rows) {
   };
   const stats::RunObject run = probe_counts(context, probe);
   set_single(rows[0], executions(run, "draw") / executions(run, "seed"));
-  rows[0].note = fmt::format("{:g} numbers of {:g} seeds, counted while {} pixels of bark are drawn; the seeds' length is the "
-                             "paper's",
-                             executions(run, "draw"), executions(run, "seed"), 512);
+  rows[0].note = fmt::format(
+      "{:g} numbers of {:g} seeds, counted while {} pixels of bark are drawn; the seeds' length is the "
+      "paper's",
+      executions(run, "draw"), executions(run, "seed"), 512);
   for (std::size_t c = 0; c < 3; ++c) {
     set_single(rows[c + 1], error_figure(run, fmt::format("most.{}", c)));
-    rows[c + 1].note = fmt::format("least {} {:g}; 512 pixels of bark as the machine leaves them, base and range the paper's",
-                                   kChannels[c], error_figure(run, fmt::format("least.{}", c)));
+    rows[c + 1].note = fmt::format(
+        "least {} {:g}; 512 pixels of bark as the machine leaves them, base and range the paper's",
+        kChannels[c], error_figure(run, fmt::format("least.{}", c)));
   }
 }
 
-/// Multiplications, which shift, and additions between a coordinate and the address of its texel; the additions that
-/// make the coordinates aside.
+/// Multiplications, which shift, and additions between a coordinate and the address of its texel; the
+/// additions that make the coordinates aside.
 std::map<std::uint32_t, std::string> address_words(const lib::ProgramImage& image) {
   using namespace bps32;
   std::map<std::uint32_t, std::string> counted;
@@ -143,10 +150,12 @@ void fill_address(const TableContext& context, std::vector<TableRow>& rows) {
   }
   DENDRO_CHECK(texels == 64 * 64, "{}", texels);
   set_single(rows[0], shifts / texels);
-  rows[0].note = "multiplications by powers of two, executed per texel; three AND masks for the modulo beside them";
+  rows[0].note =
+      "multiplications by powers of two, executed per texel; three AND masks for the modulo beside them";
   set_single(rows[1], adds / texels);
   rows[1].note =
-      "executed per texel: the two of the formula join the coordinates; one adds the MIP level's place, two turn the "
+      "executed per texel: the two of the formula join the coordinates; one adds the MIP level's place, two "
+      "turn the "
       "pixel's number into the bus's address, which the formula leaves out";
 }
 
@@ -156,14 +165,16 @@ void fill_mapping(const TableContext& context, std::vector<TableRow>& rows) {
   const Propagated p = propagate_probe(context, colour_probe("FG86 colour", kObject, kObject, 100), metrics);
   set_metric(rows[0], p, metrics, 0);
   rows[0].assumptions.insert(rows[0].assumptions.begin(), "DEV-054");
-  rows[0].note = fmt::format("{:.1f} ticks a pixel; {:.0f} frames for the tree pixels of one",
-                             machine_seconds(p.nominal) * p.nominal.clock_hz / kPixels, 80000 / *rows[0].simulated);
+  rows[0].note =
+      fmt::format("{:.1f} ticks a pixel; {:.0f} frames for the tree pixels of one",
+                  machine_seconds(p.nominal) * p.nominal.clock_hz / kPixels, 80000 / *rows[0].simulated);
 }
 
 }  // namespace
 
 std::vector<RowGroup> fg86_surface_groups() {
-  std::vector<TableRow> bark = {claim("FG86-A6", "numbers of one random seed", "1", 512.0, "one screen line")};
+  std::vector<TableRow> bark = {
+      claim("FG86-A6", "numbers of one random seed", "1", 512.0, "one screen line")};
   constexpr double kMost[] = {100, 50, 20};
   for (std::size_t c = 0; c < 3; ++c)
     bark.push_back(claim(fmt::format("FG86-A27{}", static_cast<char>('a' + c)),

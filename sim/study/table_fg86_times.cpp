@@ -71,8 +71,9 @@ void note_picture(TableRow& row, const stats::RunObject& run) {
                           *row.simulated / kBoxPixels * 1e6, plane_seconds(run).front());
   if (row.inside()) return;
   const bool slow = *row.low > *row.published;
-  row.note += fmt::format("; {} even at the {} corner: the box would have to shrink {} than it does",
-                          slow ? "slower" : "faster", slow ? "fastest" : "slowest", slow ? "sooner" : "later");
+  row.note +=
+      fmt::format("; {} even at the {} corner: the box would have to shrink {} than it does",
+                  slow ? "slower" : "faster", slow ? "fastest" : "slowest", slow ? "sooner" : "later");
 }
 
 void fill_picture(const TableContext& context, std::vector<TableRow>& rows) {
@@ -104,9 +105,10 @@ std::vector<RowGroup> fg86_time_groups() {
       {"the same without boxing, so that every plane scans the whole box",
        {claim("FG86-A7b", "one plane over the whole 512x512 box", "s", 0.75,
               "0.7 to 0.8 s, its middle shown; boxing off"),
-        claim("FG86-A7c", "one plane at one pixel", "us", 0.75 / kBoxPixels * 1e6,
-              "FG86-K8: not the printed 50 us (all planes of a pixel) but 12 s / (20 x 512^2) = 2.3 to 0.8 s / "
-              "512^2 = 3.1 us; 0.75 s / 512^2 shown")},
+        claim(
+            "FG86-A7c", "one plane at one pixel", "us", 0.75 / kBoxPixels * 1e6,
+            "FG86-K8: not the printed 50 us (all planes of a pixel) but 12 s / (20 x 512^2) = 2.3 to 0.8 s / "
+            "512^2 = 3.1 us; 0.75 s / 512^2 shown")},
        fill_planes}};
 }
 

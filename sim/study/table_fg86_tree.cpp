@@ -27,16 +27,18 @@ double loads(const stats::RunObject& run) { return phase_seconds(run, "load_prog
 
 void fill_overlays(const TableContext& context, std::vector<TableRow>& rows) {
   const std::vector<Metric> metrics = {{"loads", loads}};
-  const Propagated turns = propagate_scene(context, {"figure6", {}, "", {}, "rds3000:fg86"}, metrics, "FG86 figure6");
-  const Propagated resident =
-      propagate_scene(context, {"figure6", {}, "", {}, "rds3000:big-store"}, metrics, "FG86 figure6 big-store");
+  const Propagated turns =
+      propagate_scene(context, {"figure6", {}, "", {}, "rds3000:fg86"}, metrics, "FG86 figure6");
+  const Propagated resident = propagate_scene(context, {"figure6", {}, "", {}, "rds3000:big-store"}, metrics,
+                                              "FG86 figure6 big-store");
   set_metric(rows[0], turns, metrics, 0);
   set_metric(rows[1], resident, metrics, 0);
-  rows[0].note = fmt::format("4 programs, {:.1f} s of a run of {:.1f} s, of which {:.1f} s are the machine's", loads(turns.nominal),
-                             turns.nominal.seconds, machine_seconds(turns.nominal));
-  rows[1].note = fmt::format("the same picture with all programs resident after one load each: {:.1f} s less; as A10 it rests "
-                             "on DEV-028",
-                             loads(turns.nominal) - loads(resident.nominal));
+  rows[0].note = fmt::format("4 programs, {:.1f} s of a run of {:.1f} s, of which {:.1f} s are the machine's",
+                             loads(turns.nominal), turns.nominal.seconds, machine_seconds(turns.nominal));
+  rows[1].note = fmt::format(
+      "the same picture with all programs resident after one load each: {:.1f} s less; as A10 it rests "
+      "on DEV-028",
+      loads(turns.nominal) - loads(resident.nominal));
 }
 
 // A26: the hulls of trunks.
@@ -107,9 +109,9 @@ struct View {
     return texel;
   }
 
-  PreparedTree tree;        ///< without roughness
-  std::vector<int> hull;    ///< nearest depths of the hulls as they are
-  std::vector<int> shown;   ///< and as roughened, if they are
+  PreparedTree tree;       ///< without roughness
+  std::vector<int> hull;   ///< nearest depths of the hulls as they are
+  std::vector<int> shown;  ///< and as roughened, if they are
 };
 
 struct Agreement {
@@ -129,7 +131,8 @@ int distance(const View::Texel& a, const View::Texel& b, int side) {
   return most;
 }
 
-/// Points of the hulls that both views see: the second has the same depth there, to two steps of the register.
+/// Points of the hulls that both views see: the second has the same depth there, to two steps of the
+/// register.
 Agreement compare_views(const View& a, const View& b) {
   const half_space::PreparedHulls &here = a.tree.hulls, &there = b.tree.hulls;
   const int side = 1 << a.tree.colouring.level.bits;
@@ -168,11 +171,14 @@ void fill_views(const TableContext& context, std::vector<TableRow>& rows) {
     set_range(row, sum.share(), least, most);
     row.assumptions = {"DEV-060", "DEV-054"};
     if (rough) row.assumptions.push_back("DEV-053");
-    row.note = fmt::format("{:.0f} common points of figure6 and its camera turned by 5, 15, 30, 60 degrees; {:.2f} % have the "
-                           "same texel or one beside it; ",
-                           sum.common, sum.near());
-    row.note += rough ? "the field that roughens is fixed to the screen, so a point of the hull has another depth in each view"
-                      : "the other view's pixel is up to half a pixel and a step of depth away, a quarter of a texel each";
+    row.note = fmt::format(
+        "{:.0f} common points of figure6 and its camera turned by 5, 15, 30, 60 degrees; {:.2f} % have the "
+        "same texel or one beside it; ",
+        sum.common, sum.near());
+    row.note += rough ? "the field that roughens is fixed to the screen, so a point of the hull has another "
+                        "depth in each view"
+                      : "the other view's pixel is up to half a pixel and a step of depth away, a quarter of "
+                        "a texel each";
   }
 }
 
@@ -182,7 +188,8 @@ std::string camera_setting(const scene::Scene& scene) {
   return fmt::format("camera.position=[{:.9f}, {:.9f}, {:.9f}]", p[0], p[1], p[2]);
 }
 
-/// The machine's own pictures: a pixel's colour against that of the texel at its world point in double precision.
+/// The machine's own pictures: a pixel's colour against that of the texel at its world point in double
+/// precision.
 void fill_maps(const TableContext& context, std::vector<TableRow>& rows) {
   const scene::Scene scene = request_of(context, {"figure6", {}, "function", {}, ""}).file.scene;
   std::vector<SceneRun> runs = {{"figure6", {}, "function", {}, ""}};
@@ -198,9 +205,10 @@ void fill_maps(const TableContext& context, std::vector<TableRow>& rows) {
   }
   set_range(rows[0], 100 * right / all, least, most);
   rows[0].assumptions = {"DEV-060", "DEV-054"};
-  rows[0].note = fmt::format("{:.0f} crown pixels in five pictures of figure6 as the machine leaves them; the texel does not depend "
-                             "on the view, {:.0f} pixels lie on a texel's side within the rounding of 16.16 (N-A8)",
-                             all, all - right);
+  rows[0].note = fmt::format(
+      "{:.0f} crown pixels in five pictures of figure6 as the machine leaves them; the texel does not depend "
+      "on the view, {:.0f} pixels lie on a texel's side within the rounding of 16.16 (N-A8)",
+      all, all - right);
 }
 
 // A36: the reverse painter against trunks as hulls.
@@ -250,7 +258,8 @@ std::vector<bool> bare_trunks(const half_space::PreparedHulls& hulls) {
 }
 
 struct Painting {
-  double trunk = 0, hidden = 0, shown = 0;  ///< pixels: exact trunk; trunk that the painter hides, and shows too many
+  double trunk = 0, hidden = 0,
+         shown = 0;  ///< pixels: exact trunk; trunk that the painter hides, and shows too many
 
   double wrong() const { return hidden + shown; }
 };
@@ -284,44 +293,49 @@ void fill_painter(const TableContext&, std::vector<TableRow>& rows) {
     TableRow& row = rows[i++];
     set_range(row, sum.wrong() / kGroves, least, most);
     row.assumptions = {"DEV-060"};
-    row.note = fmt::format("mean of {} groves of {} trees: {:.1f} trunk pixels hidden that exact trunks show, {:.1f} shown that "
-                           "they hide, of {:.0f}; {}",
-                           kGroves, kTrees, sum.hidden / kGroves, sum.shown / kGroves, sum.trunk / kGroves,
-                           elevation < 20 ? "trunks stand before the crowns of other trees"
-                                          : "what is left lies where a trunk leaves its crown within a step of depth");
+    row.note = fmt::format(
+        "mean of {} groves of {} trees: {:.1f} trunk pixels hidden that exact trunks show, {:.1f} shown that "
+        "they hide, of {:.0f}; {}",
+        kGroves, kTrees, sum.hidden / kGroves, sum.shown / kGroves, sum.trunk / kGroves,
+        elevation < 20 ? "trunks stand before the crowns of other trees"
+                       : "what is left lies where a trunk leaves its crown within a step of depth");
   }
 }
 
 std::vector<TableRow> painter_claims() {
   std::vector<TableRow> rows;
   for (const double elevation : kElevations)
-    rows.push_back(claim(fmt::format("FG86-A36{}", static_cast<char>('a' + rows.size())),
-                         fmt::format("reverse painter: wrong pixels at {:g} degrees", elevation), "px", 0.0,
-                         "\"from above ... this will give the correct priority\": against trunks as hulls, where both "
-                         "have the same outline"));
+    rows.push_back(
+        claim(fmt::format("FG86-A36{}", static_cast<char>('a' + rows.size())),
+              fmt::format("reverse painter: wrong pixels at {:g} degrees", elevation), "px", 0.0,
+              "\"from above ... this will give the correct priority\": against trunks as hulls, where both "
+              "have the same outline"));
   return rows;
 }
 
 }  // namespace
 
 std::vector<RowGroup> fg86_tree_groups() {
-  return {{"figure6 with one control-store page and with eight, over every assumption",
-           {claim("FG86-A10b", "program loads of a complete tree", "s"),
-            claim("FG86-A10c", "program loads of a complete tree, big-store", "s")},
-           fill_overlays},
-          {"",
-           {claim("FG86-A26a", "planes of a trunk as hexagonal cylinder", "1", 8.0, "6 + 2"),
-            claim("FG86-A26b", "planes of a trunk as hexagonal cone", "1", 7.0, "6 + 1")},
-           fill_trunks},
-          {"figure6 from five sides at level function",
-           {claim("FG86-A35a", "pixels with their world point's texel", "%", 100.0, "\"consistency of colour\"")},
-           fill_maps},
-          {"figure6 from five sides on integers, smooth and roughened",
-           {claim("FG86-A35b", "pixels of two views with the same texel", "%", 100.0,
-                  "the same for nearest pixels of two pictures, which are not at the same point"),
-            claim("FG86-A35c", "the same with a roughened crown", "%", 100.0, "the same with the crown roughened")},
-           fill_views},
-          {"groves seen from 0 to 90 degrees on integers, trunks as hulls and painted", painter_claims(), fill_painter}};
+  return {
+      {"figure6 with one control-store page and with eight, over every assumption",
+       {claim("FG86-A10b", "program loads of a complete tree", "s"),
+        claim("FG86-A10c", "program loads of a complete tree, big-store", "s")},
+       fill_overlays},
+      {"",
+       {claim("FG86-A26a", "planes of a trunk as hexagonal cylinder", "1", 8.0, "6 + 2"),
+        claim("FG86-A26b", "planes of a trunk as hexagonal cone", "1", 7.0, "6 + 1")},
+       fill_trunks},
+      {"figure6 from five sides at level function",
+       {claim("FG86-A35a", "pixels with their world point's texel", "%", 100.0, "\"consistency of colour\"")},
+       fill_maps},
+      {"figure6 from five sides on integers, smooth and roughened",
+       {claim("FG86-A35b", "pixels of two views with the same texel", "%", 100.0,
+              "the same for nearest pixels of two pictures, which are not at the same point"),
+        claim("FG86-A35c", "the same with a roughened crown", "%", 100.0,
+              "the same with the crown roughened")},
+       fill_views},
+      {"groves seen from 0 to 90 degrees on integers, trunks as hulls and painted", painter_claims(),
+       fill_painter}};
 }
 
 }  // namespace dendro::study

@@ -15,7 +15,8 @@ using scene::Canvas;
 using scene::Colour;
 
 constexpr int kWidth = 1240, kLeft = 620, kRight = 30, kTop = 60, kBottom = 60, kLine = 26;
-constexpr Colour kInk = {40, 40, 40}, kGrid = {225, 225, 225}, kInside = {44, 140, 60}, kOutside = {214, 39, 40};
+constexpr Colour kInk = {40, 40, 40}, kGrid = {225, 225, 225}, kInside = {44, 140, 60},
+                 kOutside = {214, 39, 40};
 
 bool is_drawn(const TableRow& row) {
   if (!row.simulated || !row.published || !row.low || *row.published <= 0 || *row.low <= 0) return false;
@@ -49,7 +50,8 @@ void draw_marks(Canvas& canvas, const Axis& axis, int bottom) {
       const double share = m * decade;
       if (share < axis.low || share > axis.high || (m != 1 && !fine)) continue;
       const int x = axis.column(share);
-      canvas.line(x, kTop, x, bottom, std::abs(share - 1) < 1e-9 ? kInk : kGrid, std::abs(share - 1) < 1e-9 ? 2 : 1);
+      canvas.line(x, kTop, x, bottom, std::abs(share - 1) < 1e-9 ? kInk : kGrid,
+                  std::abs(share - 1) < 1e-9 ? 2 : 1);
       const std::string text = scene::short_number(share);
       canvas.text(x - Canvas::text_width(text) / 2, bottom + 8, text, kInk);
     }
@@ -74,15 +76,18 @@ std::optional<scene::RgbImage> draw_table(const std::vector<TableRow>& rows) {
   std::size_t equal = 0;
   for (const TableRow& row : rows) {
     if (is_drawn(row)) drawn.push_back(&row);
-    equal += row.simulated && row.published && row.low && *row.low == *row.published && *row.high == *row.published;
+    equal += row.simulated && row.published && row.low && *row.low == *row.published &&
+             *row.high == *row.published;
   }
   if (drawn.empty()) return std::nullopt;
   const int bottom = kTop + kLine * static_cast<int>(drawn.size());
   Canvas canvas(kWidth, bottom + kBottom);
   const Axis axis = axis_of(drawn);
-  canvas.text(15, 18, fmt::format("{}: simulated over published; bar: all assumptions, tick: nominal; {} rows are equal",
-                                  drawn.front()->paper, equal),
-              kInk);
+  canvas.text(
+      15, 18,
+      fmt::format("{}: simulated over published; bar: all assumptions, tick: nominal; {} rows are equal",
+                  drawn.front()->paper, equal),
+      kInk);
   draw_marks(canvas, axis, bottom);
   for (std::size_t i = 0; i < drawn.size(); ++i)
     draw_row(canvas, axis, *drawn[i], kTop + kLine * static_cast<int>(i) + kLine / 2);

@@ -36,7 +36,8 @@ class ProbeJob : public Job {
 }  // namespace
 
 ProbeRequest::ProbeRequest(const TableContext& context, const Probe& probe, const std::string& level) {
-  const auto make = [&probe](const scene::Scene&, const MachineType&, const config::ParameterSet& parameters) {
+  const auto make = [&probe](const scene::Scene&, const MachineType&,
+                             const config::ParameterSet& parameters) {
     return std::make_unique<ProbeJob>(probe, program_image(probe.program, parameters));
   };
   algorithm_ = {"probe", probe.name, {"rds3000"}, "", make};
@@ -60,7 +61,8 @@ stats::RunObject probe_counts(const TableContext& context, const Probe& probe) {
   return from_bytes(make({request.request()}).front().value()).object;
 }
 
-Propagated propagate_probe(const TableContext& context, const Probe& probe, const std::vector<Metric>& metrics) {
+Propagated propagate_probe(const TableContext& context, const Probe& probe,
+                           const std::vector<Metric>& metrics) {
   check_level(context);
   const ProbeRequest request(context, probe);
   return propagate_request(context, request.request(), metrics, probe.name);

@@ -75,7 +75,8 @@ void set_metric(TableRow& row, const Propagated& p, const std::vector<Metric>& m
 /// Throws UserError for a level without time.
 void check_level(const TableContext& context);
 
-/// Those of the table's settings that are the machine's: a scene's keys mean nothing to a program without scene.
+/// Those of the table's settings that are the machine's: a scene's keys mean nothing to a program without
+/// scene.
 std::vector<std::string> parameter_settings(const TableContext& context);
 
 /// A microprogram's run with the table's settings of the machine.
@@ -83,9 +84,9 @@ ExecOutput exec_text(const TableContext& context, const std::string& name, const
                      const std::vector<std::string>& settings = {}, const std::string& level = "",
                      const std::vector<std::pair<std::uint32_t, std::uint32_t>>& dumps = {});
 
-double fact(const stats::RunObject& run, const std::string& name);             ///< 0 without it
-double error_figure(const stats::RunObject& run, const std::string& name);     ///< must be there
-double phase_seconds(const stats::RunObject& run, const std::string& name);    ///< 0 without it
-double machine_seconds(const stats::RunObject& run);                           ///< phases of the machine
+double fact(const stats::RunObject& run, const std::string& name);           ///< 0 without it
+double error_figure(const stats::RunObject& run, const std::string& name);   ///< must be there
+double phase_seconds(const stats::RunObject& run, const std::string& name);  ///< 0 without it
+double machine_seconds(const stats::RunObject& run);                         ///< phases of the machine
 
 }  // namespace dendro::study

@@ -152,14 +152,15 @@ TEST_F(Commands, TableHasItsRowsAndATolerance) {
   for (int claim = 1; claim <= 38; ++claim) {
     const std::string id = "FG86-A" + std::to_string(claim);
     EXPECT_TRUE(std::any_of(by_id.begin(), by_id.end(), [&](const auto& row) {
-      return row.first == id || (row.first.compare(0, id.size(), id) == 0 && std::isalpha(row.first[id.size()]));
+      return row.first == id ||
+             (row.first.compare(0, id.size(), id) == 0 && std::isalpha(row.first[id.size()]));
     })) << id;
   }
   const std::pair<const char*, double> exact[] = {
-      {"A1", 256},     {"A2a", 6291456}, {"A2b", 6291456}, {"A3", 400},      {"A4a", 32768}, {"A4b", 32768},
-      {"A5a", 4},      {"A6", 512},      {"A11a", 48},     {"A13", 131072},  {"A14", 149796}, {"A15a", 17},
-      {"A15b", 18},    {"A16a", 3},      {"A17", 1},       {"A20", 6},       {"A26a", 8},    {"A26b", 7},
-      {"A27a", 100},   {"A27b", 50},     {"A27c", 20},     {"A29a", 80},     {"A29b", 96},   {"A31", 0}};
+      {"A1", 256},   {"A2a", 6291456}, {"A2b", 6291456}, {"A3", 400},     {"A4a", 32768},  {"A4b", 32768},
+      {"A5a", 4},    {"A6", 512},      {"A11a", 48},     {"A13", 131072}, {"A14", 149796}, {"A15a", 17},
+      {"A15b", 18},  {"A16a", 3},      {"A17", 1},       {"A20", 6},      {"A26a", 8},     {"A26b", 7},
+      {"A27a", 100}, {"A27b", 50},     {"A27c", 20},     {"A29a", 80},    {"A29b", 96},    {"A31", 0}};
   for (const auto& [id, value] : exact) EXPECT_EQ(value, by_id["FG86-" + std::string(id)]["simulated"]) << id;
 
   const std::string first = read("o.json");
@@ -169,7 +170,8 @@ TEST_F(Commands, TableHasItsRowsAndATolerance) {
 }
 
 TEST_F(Commands, ASettingThatOnlySomeScenesTakeCostsTheTableOnlyTheRowsOfTheOthers) {
-  const std::string small = "table FG86 --set image.width=64 --set image.height=64 --set half_space.depth_bits=10 --json o.json";
+  const std::string small =
+      "table FG86 --set image.width=64 --set image.height=64 --set half_space.depth_bits=10 --json o.json";
   const Result result = dendro(small);
   ASSERT_EQ(0, result.status) << result.err;
   std::map<std::string, json> by_id;

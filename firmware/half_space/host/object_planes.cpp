@@ -17,11 +17,12 @@
 namespace dendro::half_space {
 namespace {
 
-/// The scratchpad's 8K words hold no more, whatever the kinds; check_fits() knows what the program leaves of them.
+/// The scratchpad's 8K words hold no more, whatever the kinds; check_fits() knows what the program leaves of
+/// them.
 constexpr int kMostPlanes = 2048;
 
-/// What a mesh's hull is merged down to unless the scene says otherwise: with many more facets neighbours meet at less
-/// than a depth unit a pixel, and a 12-bit register cannot tell which of two faces is in front.
+/// What a mesh's hull is merged down to unless the scene says otherwise: with many more facets neighbours
+/// meet at less than a depth unit a pixel, and a 12-bit register cannot tell which of two faces is in front.
 constexpr std::size_t kDefaultPlanes = 32;
 
 [[noreturn]] void blame(const scene::Object& object, const std::string& key, const std::string& message) {
@@ -81,8 +82,7 @@ scene::PlaneSet mesh_planes(const scene::Object& object, scene::Options& options
   }
   if (source == "support") {
     if (directions.empty() && count == 0) options.fail("planes", "is needed with plane_source = \"support\"");
-    return scene::support_planes(vertices,
-                                 directions.empty() ? scene::sphere_directions(count) : directions);
+    return scene::support_planes(vertices, directions.empty() ? scene::sphere_directions(count) : directions);
   }
   try {
     scene::PlaneSet planes = scene::hull_planes(vertices, count);

@@ -126,22 +126,23 @@ class Exact {
     const double length = n.length.to_double();
     for (int i = 0; i < kMostDraws; ++i, ++result_.redraws) {
       Side side;
-      side.angle =
-          draw_until([&] { return stream.gauss() * n.sigma_angle + n.mean_angle; },
-                     [&](const BigReal& a) { return abs(a) < BigReal(p_.angle_limit); });
+      side.angle = draw_until([&] { return stream.gauss() * n.sigma_angle + n.mean_angle; },
+                              [&](const BigReal& a) { return abs(a) < BigReal(p_.angle_limit); });
       const BigReal noise = stream.gauss() * BigReal(p_.sigma_length) * n.length;
       side.length = distance / cos(side.angle) + noise;
       if (side.length < BigReal(1e-9) * n.length || !(side.length < BigReal(p_.length_limit) * n.length))
         continue;
       // 1 / cos a moves by tan a / cos a for each unit of a.
-      const double angle = side.angle.to_double(), cosine = std::cos(angle), tangent = std::abs(std::tan(angle));
+      const double angle = side.angle.to_double(), cosine = std::cos(angle),
+                   tangent = std::abs(std::tan(angle));
       const double far = distance.to_double() / cosine, sigma = n.sigma_angle.to_double();
       side.angle_bound = sigma * (Stream::kGaussBound + 10 * kUnit) +
                          (n.generation + 2) * kUnit * (std::abs(n.mean_angle.to_double()) + 9 * sigma) +
                          kUnit * std::abs(angle);
-      side.length_bound = distance_bound / cosine + far * (tangent * side.angle_bound + 2 * kUnit) +
-                          p_.sigma_length * (length * (Stream::kGaussBound + 20 * kUnit) + 9 * n.length_bound) +
-                          2 * kUnit * (far + std::abs(noise.to_double()));
+      side.length_bound =
+          distance_bound / cosine + far * (tangent * side.angle_bound + 2 * kUnit) +
+          p_.sigma_length * (length * (Stream::kGaussBound + 20 * kUnit) + 9 * n.length_bound) +
+          2 * kUnit * (far + std::abs(noise.to_double()));
       return side;
     }
     throw Refused();
@@ -151,8 +152,9 @@ class Exact {
   std::array<std::optional<Normal>, 2> split(const Normal& n) {
     Stream stream(p_.seed, n);
     const double length = n.length.to_double();
-    const BigReal share = draw_until([&] { return stream.gauss() * BigReal(p_.sigma_b) + BigReal(p_.mean_b); },
-                                     [&](const BigReal& d) { return !(d < BigReal(1e-9)); });
+    const BigReal share =
+        draw_until([&] { return stream.gauss() * BigReal(p_.sigma_b) + BigReal(p_.mean_b); },
+                   [&](const BigReal& d) { return !(d < BigReal(1e-9)); });
     const BigReal distance = share * n.length;
     const double distance_bound =
         length * (p_.sigma_b * (Stream::kGaussBound + 20 * kUnit) + 3 * kUnit * std::abs(share.to_double())) +
@@ -183,7 +185,8 @@ class Exact {
       child.origin = b;
       child.direction = i == 0 ? straight + turned : straight - turned;
       child.length = side.length;
-      child.mean_angle = n.mean_angle * BigReal(p_.ratio), child.sigma_angle = n.sigma_angle * BigReal(p_.ratio);
+      child.mean_angle = n.mean_angle * BigReal(p_.ratio),
+      child.sigma_angle = n.sigma_angle * BigReal(p_.ratio);
       child.generation = n.generation + 1;
       child.index = 2 * n.index + static_cast<std::uint64_t>(i);
       child.origin_bound = b_bound;

@@ -105,7 +105,8 @@ std::vector<std::uint32_t> fixed_on_machine(const stability::Rig& rig, const std
         for (std::size_t at = 0; at < all.size(); at += kFixedBatch) {
           const std::size_t count = std::min(kFixedBatch, all.size() - at);
           std::vector<std::uint32_t> words;
-          for (std::size_t i = at; i < at + count; ++i) words.insert(words.end(), {all[i].first, all[i].second});
+          for (std::size_t i = at; i < at + count; ++i)
+            words.insert(words.end(), {all[i].first, all[i].second});
           driver.write_scratch(image.scratch.at("count").address, {static_cast<std::uint32_t>(count)});
           driver.write_scratch(image.scratch.at("pairs").address, words);
           driver.start(image.entry);

@@ -8,8 +8,8 @@
 #include "firmware/half_space/stability/support.h"
 #include "sim/base/error.h"
 
-// N-A9, by the host's own splitting of normals, and by the microcode on the crowns it gives. Near a right angle the length
-// |BC| / cos(alpha) blows up; gauss() has tails; a start normal may have no length.
+// N-A9, by the host's own splitting of normals, and by the microcode on the crowns it gives. Near a right
+// angle the length |BC| / cos(alpha) blows up; gauss() has tails; a start normal may have no length.
 
 namespace dendro::half_space {
 namespace {
@@ -35,15 +35,17 @@ constexpr Extreme kExtremes[] = {
     {"no room for any length", 2, 0, 89, 0, 89.9, 0, 0.1, 1, 1, true},
     {"B beyond the centre", 2, 0.2, 15, 15, 60, 0.2, 4, 0.7, 3, false},
 };
-constexpr int kTrees = 12;     ///< seeds of each
-constexpr int kDrawn = 3;      ///< of these on the machine
+constexpr int kTrees = 12;  ///< seeds of each
+constexpr int kDrawn = 3;   ///< of these on the machine
 constexpr int kSide = 128;
 
 scene::Object tree_of(const Extreme& e, std::uint64_t seed) {
   scene::Object object;
   object.tree = "round";
   object.source_where = {"stability", 0};
-  const auto set = [&](const char* key, auto value) { object.tree_parameters[key] = {value, {"stability", 0}}; };
+  const auto set = [&](const char* key, auto value) {
+    object.tree_parameters[key] = {value, {"stability", 0}};
+  };
   set("mu_b", e.mu_b), set("sigma_b", e.sigma_b);
   set("mu_alpha", e.mu_alpha), set("sigma_alpha", e.sigma_alpha), set("alpha_max", e.alpha_max);
   set("sigma_l", e.sigma_l), set("length_limit", e.length_limit), set("ratio", e.ratio);
@@ -53,8 +55,8 @@ scene::Object tree_of(const Extreme& e, std::uint64_t seed) {
 }
 
 struct Totals {
-  Tally strange;   ///< numbers that are no numbers
-  Tally planes;    ///< planes in one and not in the other
+  Tally strange;  ///< numbers that are no numbers
+  Tally planes;   ///< planes in one and not in the other
   std::int64_t compared = 0, refused = 0;
   std::uint64_t redraws = 0;
   double normal = 0, normal_bound = 0, offset = 0, offset_bound = 0, share = 0;
@@ -93,8 +95,7 @@ void compare_tree(const Extreme& e, std::uint64_t seed, Totals& totals) {
   }
   totals.refused += refused;
   if (refused != exact.refused || planes.size() != exact.planes.size()) {
-    totals.planes.fault(
-        fmt::format("{}: {} planes instead of {}", name, planes.size(), exact.planes.size()));
+    totals.planes.fault(fmt::format("{}: {} planes instead of {}", name, planes.size(), exact.planes.size()));
     return;
   }
   for (std::size_t i = 0; i < planes.size(); ++i)
@@ -159,27 +160,28 @@ stability::Result splitting(const stability::Rig& rig, std::uint64_t seed) {
     return stability::Row{"N-A9", what, measured, bound, unit, reference, kind, where};
   };
   const double compared = static_cast<double>(totals.compared);
-  return {{row(fmt::format("NaN or infinity in {:.0f} planes of {} trees at the ends of all ranges", compared,
-                           kTrees * std::size(kExtremes)),
-               static_cast<double>(totals.strange.count), 0, "numbers", "ieee", Bound::kAtMost,
-               totals.strange.first),
-           row("trees with another number of planes, or refused in one and not in the other",
-               static_cast<double>(totals.planes.count), 0, "trees", "mpfr", Bound::kAtMost, totals.planes.first),
-           row("largest error of a normal", totals.normal, totals.normal_bound, "", "mpfr", Bound::kAtMost, ""),
-           row("largest error of an offset", totals.offset, totals.offset_bound, "radii", "mpfr", Bound::kAtMost,
-               ""),
-           row("largest share of a plane's own bound", totals.share, 1, "", "mpfr", Bound::kAtMost, totals.worst),
-           row("draws beyond a limit, which had to be repeated", static_cast<double>(totals.redraws), 0, "draws",
-               "mpfr", Bound::kMoreThan, ""),
-           row("trees that no draw could give, each an error of the user", static_cast<double>(totals.refused), 0,
-               "trees", "mpfr", Bound::kMoreThan, ""),
-           row("start normals without a length or a direction that were taken",
-               static_cast<double>(accepted_zeros()), 0, "normals", "ieee", Bound::kAtMost, ""),
-           row("such crowns on the machine: pixels outside the bound of N-A2", static_cast<double>(drawn.count), 0,
-               "pixels", "gmp", Bound::kAtMost, drawn.first),
-           row(fmt::format("covered pixels of the {} that were looked at", drawn.pixels), static_cast<double>(covered), 0, "pixels", "gmp",
-               Bound::kMoreThan, "")},
-          {}};
+  return {
+      {row(fmt::format("NaN or infinity in {:.0f} planes of {} trees at the ends of all ranges", compared,
+                       kTrees * std::size(kExtremes)),
+           static_cast<double>(totals.strange.count), 0, "numbers", "ieee", Bound::kAtMost,
+           totals.strange.first),
+       row("trees with another number of planes, or refused in one and not in the other",
+           static_cast<double>(totals.planes.count), 0, "trees", "mpfr", Bound::kAtMost, totals.planes.first),
+       row("largest error of a normal", totals.normal, totals.normal_bound, "", "mpfr", Bound::kAtMost, ""),
+       row("largest error of an offset", totals.offset, totals.offset_bound, "radii", "mpfr", Bound::kAtMost,
+           ""),
+       row("largest share of a plane's own bound", totals.share, 1, "", "mpfr", Bound::kAtMost, totals.worst),
+       row("draws beyond a limit, which had to be repeated", static_cast<double>(totals.redraws), 0, "draws",
+           "mpfr", Bound::kMoreThan, ""),
+       row("trees that no draw could give, each an error of the user", static_cast<double>(totals.refused), 0,
+           "trees", "mpfr", Bound::kMoreThan, ""),
+       row("start normals without a length or a direction that were taken",
+           static_cast<double>(accepted_zeros()), 0, "normals", "ieee", Bound::kAtMost, ""),
+       row("such crowns on the machine: pixels outside the bound of N-A2", static_cast<double>(drawn.count),
+           0, "pixels", "gmp", Bound::kAtMost, drawn.first),
+       row(fmt::format("covered pixels of the {} that were looked at", drawn.pixels),
+           static_cast<double>(covered), 0, "pixels", "gmp", Bound::kMoreThan, "")},
+      {}};
 }
 
 }  // namespace dendro::half_space

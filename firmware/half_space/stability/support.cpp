@@ -18,8 +18,8 @@ Words read_words(const MachineView& machine, int width, int height) {
   Words words;
   for (int y = 0; y < height; ++y)
     for (int x = 0; x < width; ++x)
-      words.push_back(machine.peek(
-          static_cast<std::uint32_t>(x) << 1 | static_cast<std::uint32_t>(y) << 11, kLoresPixel));
+      words.push_back(machine.peek(static_cast<std::uint32_t>(x) << 1 | static_cast<std::uint32_t>(y) << 11,
+                                   kLoresPixel));
   return words;
 }
 

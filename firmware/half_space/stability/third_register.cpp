@@ -6,8 +6,9 @@
 #include "firmware/half_space/host/prepare_hulls.h"
 #include "firmware/half_space/stability/support.h"
 
-// N-A6. Hulls in three registers of 8 bits: depths beyond 0..255 on both sides, hulls that touch exactly, fronts in one
-// plane. All coefficients are multiples of 2^-6, so that records are exact and every word is known.
+// N-A6. Hulls in three registers of 8 bits: depths beyond 0..255 on both sides, hulls that touch exactly,
+// fronts in one plane. All coefficients are multiples of 2^-6, so that records are exact and every word is
+// known.
 
 namespace dendro::half_space {
 namespace {
@@ -55,7 +56,8 @@ std::vector<Set> sets(std::uint64_t seed) {
       {"fronts in one plane", {slab(80, 120, 0, 60), slab(80, 200, 30, 90)}},
       {"a hull twice", {slab(60, 90), slab(60, 90)}},
       {"fronts that cross on column 48",
-       {{at_depth(2, 0, 32, -1), at_depth(0, 0, 254, 1)}, {at_depth(-2, 0, 224, -1), at_depth(0, 0, 254, 1)}}},
+       {{at_depth(2, 0, 32, -1), at_depth(0, 0, 254, 1)},
+        {at_depth(-2, 0, 224, -1), at_depth(0, 0, 254, 1)}}},
       {"side by side on column 40", {slab(70, 90, 0, 40), slab(70, 90, 40, 80)}},
       {"backs around the largest depth",
        {slab(200, 253, 0, 20), slab(200, 254, 20, 40), slab(200, 255, 40, 60), slab(200, 256, 60, 80),
@@ -64,9 +66,11 @@ std::vector<Set> sets(std::uint64_t seed) {
        {slab(252, 254, 0, 20), slab(253.5, 254, 20, 40), slab(254, 254, 40, 60), slab(255, 256, 60, 80),
         slab(256, 300, 80, 95)}},
       {"fronts around the screen",
-       {slab(-300, 40, 0, 20), slab(-1, 50, 20, 40), slab(0, 60, 40, 60), slab(-5, 0, 60, 80), slab(-9, -2, 80, 95)}},
+       {slab(-300, 40, 0, 20), slab(-1, 50, 20, 40), slab(0, 60, 40, 60), slab(-5, 0, 60, 80),
+        slab(-9, -2, 80, 95)}},
       {"a slope through 8 bits twice",
-       {{at_depth(8, 0, -256, -1), at_depth(8, 0, -200, 1)}, {at_depth(-8, 4, 400, -1), at_depth(-8, 4, 450, 1)}}},
+       {{at_depth(8, 0, -256, -1), at_depth(8, 0, -200, 1)},
+        {at_depth(-8, 4, 400, -1), at_depth(-8, 4, 450, 1)}}},
   };
   std::mt19937_64 random(seed);
   for (const int hulls : {3, 6}) {
@@ -168,15 +172,16 @@ Exact exact_words(const PreparedHulls& prepared) {
   return exact;
 }
 
-void compare(const Words& got, const Words& wanted, std::uint32_t mask, const std::string& set, Tally& tally) {
+void compare(const Words& got, const Words& wanted, std::uint32_t mask, const std::string& set,
+             Tally& tally) {
   for (std::size_t i = 0; i < wanted.size(); ++i) {
     ++tally.pixels;
     if ((got[i] & mask) == (wanted[i] & mask)) continue;
     const auto part = [](std::uint32_t word, int low) { return word >> low & kHullField; };
     tally.fault(fmt::format(
-        "{}: pixel ({}, {}) has nearest {}, and front {}, back {} of the last hull, not {}, {}, {}", set, i % kSide,
-        i / kSide, part(got[i], kNearestLow), part(got[i], 0), part(got[i], kHullBackLow), part(wanted[i], kNearestLow),
-        part(wanted[i], 0), part(wanted[i], kHullBackLow)));
+        "{}: pixel ({}, {}) has nearest {}, and front {}, back {} of the last hull, not {}, {}, {}", set,
+        i % kSide, i / kSide, part(got[i], kNearestLow), part(got[i], 0), part(got[i], kHullBackLow),
+        part(wanted[i], kNearestLow), part(wanted[i], 0), part(wanted[i], kHullBackLow)));
   }
 }
 
@@ -202,16 +207,16 @@ stability::Result third_register(const stability::Rig& rig, std::uint64_t seed) 
       std::shuffle(now.begin(), now.end(), random);
     }
   }
-  return {{{"N-A6",
-            fmt::format("words of {} hulls in {} sets against the rational minimum", hulls, all.size()),
-            static_cast<double>(words.count), 0, "pixels", "gmp", Bound::kAtMost, words.first},
-           {"N-A6", fmt::format("nearest depths that change with the order of the hulls, {} orders", kOrders),
-            static_cast<double>(order.count), 0, "pixels", "machine", Bound::kAtMost, order.first},
-           {"N-A6", "pixels where two hulls touch exactly", static_cast<double>(ties), 0, "pixels", "gmp",
-            Bound::kMoreThan, ""},
-           {"N-A6", "pixels with a depth beyond 8 bits", static_cast<double>(beyond), 0, "pixels", "gmp",
-            Bound::kMoreThan, ""}},
-          {}};
+  return {
+      {{"N-A6", fmt::format("words of {} hulls in {} sets against the rational minimum", hulls, all.size()),
+        static_cast<double>(words.count), 0, "pixels", "gmp", Bound::kAtMost, words.first},
+       {"N-A6", fmt::format("nearest depths that change with the order of the hulls, {} orders", kOrders),
+        static_cast<double>(order.count), 0, "pixels", "machine", Bound::kAtMost, order.first},
+       {"N-A6", "pixels where two hulls touch exactly", static_cast<double>(ties), 0, "pixels", "gmp",
+        Bound::kMoreThan, ""},
+       {"N-A6", "pixels with a depth beyond 8 bits", static_cast<double>(beyond), 0, "pixels", "gmp",
+        Bound::kMoreThan, ""}},
+      {}};
 }
 
 }  // namespace dendro::half_space

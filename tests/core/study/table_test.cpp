@@ -1,7 +1,6 @@
 #include "sim/study/table.h"
 
 #include "sim/study/table_rows.h"
-
 #include "tests/core/study/fake_machine.h"
 
 namespace dendro::study {
@@ -71,10 +70,11 @@ TEST(GroupedTable, AGroupThatThrowsLosesItsRowsFiguresAndSaysWhyTheOthersStay) {
     set_single(rows[0], 5);
     throw UserError("--set", 0, "half_space.depth_bits", "12 is outside the allowed 6..8");
   };
-  const PaperTable table = grouped_table("X",
-                                         {{"refused", {claim("X-2", "two", "s", 1.0), claim("X-3", "three", "s")}, bad},
-                                          {"", {claim("X-1", "one", "s", 3.0)}, good}},
-                                         {});
+  const PaperTable table =
+      grouped_table("X",
+                    {{"refused", {claim("X-2", "two", "s", 1.0), claim("X-3", "three", "s")}, bad},
+                     {"", {claim("X-1", "one", "s", 3.0)}, good}},
+                    {});
   EXPECT_EQ(std::vector<std::string>{"X-2, 3: refused"}, table.plan);
   const std::vector<TableRow> rows = table.make(NoRuns().context);
   ASSERT_EQ(3u, rows.size());
@@ -102,7 +102,8 @@ TEST(GroupedTable, RowsAreInTheOrderOfTheirClaimsNumbers) {
 }
 
 TEST(TableText, WritesCountsInFullAndTimesWithFourDigits) {
-  const std::string text = table_text({row(6291456, 6291456, 6291456, 6291456), row(12.5, 13.6789, 10.20123, 23.2)});
+  const std::string text =
+      table_text({row(6291456, 6291456, 6291456, 6291456), row(12.5, 13.6789, 10.20123, 23.2)});
   EXPECT_NE(std::string::npos, text.find("6291456 .. 6291456")) << text;
   EXPECT_NE(std::string::npos, text.find("13.68")) << text;
   EXPECT_NE(std::string::npos, text.find("10.2 .. 23.2")) << text;
