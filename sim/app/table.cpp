@@ -11,6 +11,7 @@
 #include "sim/app/arguments.h"
 #include "sim/app/commands.h"
 #include "sim/study/run_folder.h"
+#include "sim/study/table_picture.h"
 
 namespace dendro::app {
 namespace {
@@ -18,7 +19,7 @@ namespace {
 struct Options {
   std::string key = "all";
   study::TableOptions table;
-  std::string json, progress = "auto";
+  std::string out, json, progress = "auto";
   std::optional<double> tolerance;
 };
 
@@ -28,6 +29,13 @@ bool within(const std::vector<study::TableRow>& rows, double tolerance) {
   return true;
 }
 
+void write_folder(study::RunFolder& folder, const std::vector<study::TableRow>& rows) {
+  folder.write("table.json", study::table_json(rows));
+  folder.write("summary.txt", study::table_text(rows));
+  if (const auto picture = study::draw_table(rows)) scene::write_png(folder.work() + "/table.png", *picture);
+  folder.commit();
+}
+
 int make(const study::Catalogue& catalogue, const Options& options) {
   const auto plan = study::table_plan(options.key);
   const study::RunCache cache;
@@ -35,6 +43,8 @@ int make(const study::Catalogue& catalogue, const Options& options) {
   const study::TableContext context = {catalogue, options.table, cache, &progress};
   study::check_table(options.key, context);
   study::OutputFile json(options.json);
+  std::optional<study::RunFolder> folder;
+  if (!options.out.empty()) folder.emplace(options.out);
   const bool print = options.json != "-";
   if (print) {
     fmt::print("plan:\n");
@@ -43,6 +53,7 @@ int make(const study::Catalogue& catalogue, const Options& options) {
   }
   const auto rows = study::make_table(options.key, context);
   if (print) fmt::print("\n{}", study::table_text(rows));
+  if (folder) write_folder(*folder, rows);
   json.commit(study::table_json(rows));
   return !options.tolerance || within(rows, *options.tolerance) ? kGood : kOutsideTolerance;
 }
@@ -60,6 +71,7 @@ void add_table(CLI::App& app, const study::Catalogue& catalogue, Action& action)
   command->add_option("--jobs", o->table.jobs, "worker processes")->check(whole_number(1, 1024));
   command->add_option("--tolerance", o->tolerance, "exit 3 when a ratio is further than this from 1")
       ->check(finite_number(0, false));
+  command->add_option("--out", o->out, "folder for the rows and their picture")->check(some_text());
   command->add_option("--json", o->json, "also write the rows here; - is standard output")
       ->check(some_text());
   command->add_option("--progress", o->progress, "auto, on or off")

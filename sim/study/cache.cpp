@@ -57,6 +57,8 @@ std::string RunCache::key(const RunRequest& request) {
                      ":" + request.preset.name + "\n" + std::to_string(file.scene.seed) + "\n" +
                      file.scene.name + "\n";
   text += std::to_string(request.options.tick_limit) + (request.options.all_units ? " all" : "") + "\n";
+  text += request.with_picture ? "picture\n" : "\n";
+  for (const auto& [at, name] : request.options.counted) text += std::to_string(at) + " " + name + "\n";
   text += config::to_toml(file.document) + "\n";
   for (const config::Parameter& p : request.preset.parameters.all())
     text += p.key + " = " + config::to_text(p.value) + " " + p.source + "\n";
@@ -94,27 +96,33 @@ void RunCache::store(const std::string& key, const std::string& bytes) const {
   fs::rename(work, path, ignored);
 }
 
-RunMaker worker_runs(int jobs, Progress* progress, const std::string& name, const RunCache* cache) {
-  return [=](const std::vector<RunRequest>& requests) {
+RunMaker worker_runs(int jobs, Progress* progress, const std::string& name, const RunCache* cache,
+                     Pictures pictures) {
+  return [=](std::vector<RunRequest> requests) {
     std::vector<Outcome> outcomes(requests.size());
+    std::vector<std::string> keys(requests.size());
     std::vector<std::size_t> missing;
     std::vector<std::function<std::string()>> tasks;
     for (std::size_t i = 0; i < requests.size(); ++i) {
-      auto found = cache ? cache->find(RunCache::key(requests[i])) : std::nullopt;
+      RunRequest& request = requests[i];
+      request.with_picture = pictures == Pictures::kCompared;
+      if (cache) keys[i] = RunCache::key(request);
+      auto found = cache ? cache->find(keys[i]) : std::nullopt;
       if (found) {
         outcomes[i].bytes = std::move(*found);
         continue;
       }
       missing.push_back(i);
-      tasks.push_back([request = requests[i]]() mutable {
-        request.with_picture = false;
-        return to_bytes(execute(request, "", nullptr));
+      tasks.push_back([&request] {
+        RunOutput output = execute(request, "", nullptr);
+        output.rgb.clear();
+        return to_bytes(output);
       });
     }
     std::size_t done = 0;
     if (progress) progress->runs(name, done, tasks.size());
     std::vector<Outcome> made = run_in_workers(tasks, jobs, [&](std::size_t n, const Outcome& outcome) {
-      if (cache && !outcome.error) cache->store(RunCache::key(requests[missing[n]]), outcome.bytes);
+      if (cache && !outcome.error) cache->store(keys[missing[n]], outcome.bytes);
       if (progress) progress->runs(name, ++done, tasks.size());
     });
     for (std::size_t n = 0; n < made.size(); ++n) outcomes[missing[n]] = std::move(made[n]);

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <random>
 
 #include "sim/base/check.h"
@@ -147,25 +148,20 @@ Assignment corner(const std::vector<Alone>& all, const Metric& metric, double no
 
 constexpr std::uint64_t kSampleSeed = 1986;
 
-/// Integers uniform over the range inclusive, reals uniform, or uniform in the logarithm where that is meant.
-Assignment sample(const std::vector<Parameter>& parameters, std::mt19937_64& random) {
-  Assignment assignment;
-  for (const Parameter& p : parameters) {
-    // Not std::uniform_real_distribution: its numbers differ between libraries.
-    const double u = static_cast<double>(random() >> 11) / 9007199254740992.0;
-    if (!p.spread->low) {
-      const auto& choices = p.spread->choices;
-      assignment[p.key] = choices[static_cast<std::size_t>(u * static_cast<double>(choices.size()))];
-      continue;
-    }
-    const double low = *p.spread->low, high = *p.spread->high;
-    if (std::holds_alternative<std::int64_t>(p.value) && !p.spread->logarithmic)
-      assignment[p.key] = static_cast<std::int64_t>(low + std::floor(u * (high - low + 1)));
-    else
-      assignment[p.key] =
-          typed_as(p.value, p.spread->logarithmic ? low * std::pow(high / low, u) : low + u * (high - low));
+// Not std::uniform_real_distribution and std::shuffle: their numbers differ between libraries.
+double uniform(std::mt19937_64& random) { return static_cast<double>(random() >> 11) / 9007199254740992.0; }
+
+/// The parameter's value at a share of its range: integers uniform over the range inclusive, reals uniform,
+/// or uniform in the logarithm where that is meant.
+Value at_share(const Parameter& p, double u) {
+  if (!p.spread->low) {
+    const auto& choices = p.spread->choices;
+    return choices[static_cast<std::size_t>(u * static_cast<double>(choices.size()))];
   }
-  return assignment;
+  const double low = *p.spread->low, high = *p.spread->high;
+  if (std::holds_alternative<std::int64_t>(p.value) && !p.spread->logarithmic)
+    return static_cast<std::int64_t>(low + std::floor(u * (high - low + 1)));
+  return typed_as(p.value, p.spread->logarithmic ? low * std::pow(high / low, u) : low + u * (high - low));
 }
 
 }  // namespace
@@ -181,6 +177,21 @@ RunRequest with_values(const RunRequest& request, const Assignment& assignment) 
   RunRequest varied = request;
   for (const auto& [key, value] : assignment) varied.preset.parameters.set(key, value, {"--interval", 0});
   return varied;
+}
+
+std::vector<Assignment> latin_hypercube(const std::vector<Parameter>& parameters, int count,
+                                        std::uint64_t seed) {
+  std::mt19937_64 random(seed);
+  std::vector<Assignment> points(static_cast<std::size_t>(std::max(count, 0)));
+  std::vector<std::size_t> strata(points.size());
+  for (const Parameter& p : parameters) {
+    std::iota(strata.begin(), strata.end(), std::size_t{0});
+    for (std::size_t i = strata.size(); i > 1; --i) std::swap(strata[i - 1], strata[random() % i]);
+    for (std::size_t i = 0; i < points.size(); ++i)
+      points[i][p.key] = at_share(
+          p, (static_cast<double>(strata[i]) + uniform(random)) / static_cast<double>(points.size()));
+  }
+  return points;
 }
 
 std::vector<Interval> propagate(const RunRequest& request, const stats::RunObject& nominal,
@@ -206,8 +217,8 @@ std::vector<Interval> propagate(const RunRequest& request, const stats::RunObjec
       const Assignment a = corner(alone, metric, metric.of(nominal), largest);
       if (std::find(together.begin(), together.end(), a) == together.end()) together.push_back(a);
     }
-  std::mt19937_64 random(kSampleSeed);
-  for (int i = 0; i < samples; ++i) together.push_back(sample(parameters, random));
+  const std::vector<Assignment> points = latin_hypercube(parameters, samples, kSampleSeed);
+  together.insert(together.end(), points.begin(), points.end());
   const std::vector<VariedRun> corner_runs = explorer.run(together, true);
 
   std::vector<Interval> intervals;

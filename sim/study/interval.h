@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <functional>
 #include <map>
 #include <string>
@@ -43,11 +44,16 @@ using RunMaker = std::function<std::vector<Outcome>(const std::vector<RunRequest
 /// another and has no range moves with it.
 std::vector<config::Parameter> varied_parameters(const config::ParameterSet& parameters);
 
+/// Points over all ranges at once: each parameter's range is cut into `count` strata of equal share (a choice
+/// is a share too), and every stratum holds exactly one point. The seed decides everything.
+std::vector<Assignment> latin_hypercube(const std::vector<config::Parameter>& parameters, int count,
+                                        std::uint64_t seed);
+
 /// Propagates every assumption's range through the run: all low, all high, each parameter at each of its ends
 /// and choices alone, and per metric the two corners made of each parameter's faster and slower end;
-/// `samples` adds as many points drawn over all ranges at once (seeded, always the same). A combination that
-/// the machine refuses puts the key it blames back to its nominal value and is tried again. Nothing is
-/// skipped: a parameter without effect shows as a contribution of width 0.
+/// `samples` adds as many points of a Latin hypercube over all ranges at once (seeded, always the same). A
+/// combination that the machine refuses puts the key it blames back to its nominal value and is tried again.
+/// Nothing is skipped: a parameter without effect shows as a contribution of width 0.
 std::vector<Interval> propagate(const RunRequest& request, const stats::RunObject& nominal,
                                 const std::vector<Metric>& metrics, const RunMaker& make_runs,
                                 int samples = 0);

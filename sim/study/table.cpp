@@ -30,7 +30,12 @@ Json or_null(const std::optional<T>& value) {
   return value ? Json(*value) : Json(nullptr);
 }
 
-std::string number(const std::optional<double>& value) { return value ? fmt::format("{:.4g}", *value) : "-"; }
+/// Counts in full, everything else with four digits.
+std::string number(const std::optional<double>& value) {
+  if (!value) return "-";
+  const bool count = *value == std::floor(*value) && std::abs(*value) < 1e8;
+  return count ? fmt::format("{:.0f}", *value) : fmt::format("{:.4g}", *value);
+}
 
 std::string verdict(const TableRow& row) {
   if (!row.simulated || !row.published) return "-";

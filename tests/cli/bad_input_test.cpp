@@ -96,6 +96,41 @@ TEST_F(BadInput, APictureTheFrameBufferCannotHold) {
   expect_user_error("run icosahedron --set image.width=0", "--set: image.width: 0 is impossible");
 }
 
+TEST_F(BadInput, SplittingThatLeavesNoPlane) {
+  const std::string tree = "tree = \"round\"\nstart = [[0.01, 1, 0.01]]\ngenerations = 6\nmu_alpha = 75\n"
+                           "sigma_alpha = 20\nmu_b = 0.3\nkeep_parent = false\nseed = 2\n";
+  write("s.toml", scene_with(tree, "[half_space]\nroughness = 0.1\n"));
+  expect_user_error("run s.toml", "s.toml:11: object.tree: splitting leaves no plane");
+}
+
+TEST_F(BadInput, ATextureThatDoesNotFitTheFrameBuffer) {
+  expect_user_error("run figure6 --set half_space.cube_bits=6", "half_space.cube_bits");
+  expect_user_error("run figure6 --set image.height=300", "--set: image.height: 300 lines do not fit");
+  expect_user_error("run figure6 --set half_space.layout=wide", "half_space.layout");
+  expect_user_error("run figure6-wide --machine rds3000:fg86", "image.height");
+}
+
+TEST_F(BadInput, ATrunkThatCannotBeDrawn) {
+  const std::string crown = "tree = \"round\"\n";
+  const auto refused = [&](const std::string& object, const std::string& options, const std::string& message) {
+    write("s.toml", scene_with(crown + object, "[half_space]\n" + options));
+    expect_user_error("run s.toml", message);
+  };
+  refused("trunk_width = 0.2\n", "", "object.trunk_width: goes with trunk");
+  refused("trunk = \"palm\"\n", "", "object.trunk");
+  refused("trunk = \"cone\"\ntrunk_hight = 1.0\n", "", "did you mean trunk_height?");
+  refused("trunk = \"cone\"\n", "depth_range = [2.0, 9.0]\n", "half_space.depth_range: goes without trunks");
+  refused("trunk = \"cone\"\n", "depth_bits = 7\n", "half_space.depth_bits: a complete tree takes 8");
+  refused("trunk = \"cone\"\n", "registers = 2\n", "half_space.registers");
+  refused("", "roughness = 0.1\ntrunk_distance = 3.0\n", "half_space.trunk_distance: no object has a trunk");
+}
+
+TEST_F(BadInput, AMeshWithoutTheGroupsThatAreAskedFor) {
+  write("m.obj", kTetrahedron);
+  write("s.toml", scene_with("mesh = \"m.obj\"\ngroups = { crown = \"leaves*\" }\n", "[half_space]\nroughness = 0.1\n"));
+  expect_user_error("run s.toml", "no group is named like crown");
+}
+
 TEST_F(BadInput, AMicroprogramThatDoesNotFit) {
   std::string source = "reg t = r0;\n";
   for (int i = 0; i < 4097; ++i) source += "t = t + 1;\n";

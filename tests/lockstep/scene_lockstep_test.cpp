@@ -43,7 +43,8 @@ class Scene : public testing::TestWithParam<std::tuple<std::string, const char*>
 /// Those named in DENDRO_SCENES, else all that are quick enough for every run of the tests.
 std::vector<std::string> shipped_scenes() {
   const char* named = std::getenv("DENDRO_SCENES");
-  if (named == nullptr) return {"icosahedron", "aspen-hull", "bishop-hull", "pine-hull", "crown", "figure5"};
+  if (named == nullptr) return {"icosahedron", "aspen-hull", "bishop-hull", "pine-hull", "crown", "figure5",
+                                 "figure6", "figure6-wide", "mesh-tree"};
   std::vector<std::string> scenes;
   std::istringstream in(named);
   for (std::string scene; in >> scene;) scenes.push_back(scene);
@@ -62,7 +63,7 @@ TEST_P(Scene, HasTheSameTicksCountersAndPictureAtCycleAndClockedAndThePictureAtF
   EXPECT_FALSE(cycle.object.time_dependent);
   EXPECT_EQ(cycle.object.instructions, function.object.instructions);
   for (const auto& [name, value] : cycle.object.error.extra)
-    EXPECT_TRUE((name != "wrong_pixels_far" && name != "outside_enclosure") || value == 0) << name << " " << value;
+    EXPECT_TRUE((name != "wrong_pixels_far" && name != "outside_enclosure" && name != "bark_outside") || value == 0) << name << " " << value;
   EXPECT_LE(cycle.object.error.max_depth_error, 1.0);
 }
 

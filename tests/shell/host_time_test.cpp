@@ -37,6 +37,8 @@ struct Machine : Target {
   void clear_interrupt() override { up = false; }
   bool running() const override { return true; }
   std::exception_ptr error() const override { return nullptr; }
+  std::uint32_t peek(std::uint32_t, unsigned) const override { return 0; }
+  void program(std::string_view, std::uint32_t) override {}
 
   std::vector<std::int64_t> asked;
   std::int64_t commanded = 0;

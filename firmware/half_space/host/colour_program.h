@@ -45,7 +45,7 @@ struct Colouring {
   int width = 0, height = 0;                     ///< pixels of the picture
   Vector start{}, step_x{}, step_y{}, step_z{};  ///< M at pixel (0, 0) and depth 0, and its columns
   CubeLevel level;
-  Rgb background{}, bark_base{}, bark_range{};  ///< base + range must be below 256
+  Rgb background{}, bark_base{}, bark_range{};  ///< base + range below 256  ASSUMED DEV-055
   std::vector<std::uint32_t> seeds;             ///< three random numbers for each pixel of a trunk
 };
 

@@ -17,11 +17,12 @@
 namespace dendro::half_space {
 namespace {
 
-/// The scratchpad's 8K words hold no more, whatever the kinds; check_fits() knows what the program leaves of them.
+/// The scratchpad's 8K words hold no more, whatever the kinds; check_fits() knows what the program leaves of
+/// them.
 constexpr int kMostPlanes = 2048;
 
-/// What a mesh's hull is merged down to unless the scene says otherwise: with many more facets neighbours meet at less
-/// than a depth unit a pixel, and a 12-bit register cannot tell which of two faces is in front.
+/// What a mesh's hull is merged down to unless the scene says otherwise: with many more facets neighbours
+/// meet at less than a depth unit a pixel, and a 12-bit register cannot tell which of two faces is in front.
 constexpr std::size_t kDefaultPlanes = 32;
 
 [[noreturn]] void blame(const scene::Object& object, const std::string& key, const std::string& message) {
@@ -81,8 +82,7 @@ scene::PlaneSet mesh_planes(const scene::Object& object, scene::Options& options
   }
   if (source == "support") {
     if (directions.empty() && count == 0) options.fail("planes", "is needed with plane_source = \"support\"");
-    return scene::support_planes(vertices,
-                                 directions.empty() ? scene::sphere_directions(count) : directions);
+    return scene::support_planes(vertices, directions.empty() ? scene::sphere_directions(count) : directions);
   }
   try {
     scene::PlaneSet planes = scene::hull_planes(vertices, count);
@@ -97,15 +97,20 @@ scene::PlaneSet mesh_planes(const scene::Object& object, scene::Options& options
 scene::PlaneSet listed_planes(const scene::Object& object) {
   scene::PlaneSet planes;
   for (const scene::PlaneEntry& entry : object.planes) {
-    const glm::dvec3 normal(entry.normal[0], entry.normal[1], entry.normal[2]);
-    const double length = glm::length(normal);
-    if (!(length > 0) || !std::isfinite(length) || !std::isfinite(entry.offset))
+    const double largest =
+        std::max({std::abs(entry.normal[0]), std::abs(entry.normal[1]), std::abs(entry.normal[2])});
+    // A power of two, which rounds nothing, keeps the squares of very small and large numbers in a double.
+    const int exponent = largest > 0 && std::isfinite(largest) ? std::ilogb(largest) : 0;
+    const auto scaled = [&](double value) { return std::scalbn(value, -exponent); };
+    const glm::dvec3 normal(scaled(entry.normal[0]), scaled(entry.normal[1]), scaled(entry.normal[2]));
+    const double length = glm::length(normal), offset = scaled(entry.offset) / length;
+    if (!(length > 0) || !std::isfinite(length) || !std::isfinite(offset))
       blame(object, "object.planes",
             fmt::format("plane {}: the normal must be finite and not zero and the offset "
                         "finite",
                         planes.size() + 1));
     // A unit axis keeps its exact zeros and ones, which makes edge-on planes exactly edge-on.
-    planes.push_back({normal / length, entry.offset / length});
+    planes.push_back({normal / length, offset});
   }
   return planes;
 }

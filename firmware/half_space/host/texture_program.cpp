@@ -12,7 +12,7 @@ using Words = std::vector<std::uint32_t>;
 constexpr unsigned kWordFunction = 0;
 constexpr unsigned kWordMask = 010;
 constexpr unsigned kPixelsPerWord = 8;
-constexpr unsigned kCoordinates = 32;  // places of one axis in the scratch area
+constexpr unsigned kCoordinates = 32;          // places of one axis in the scratch area
 constexpr unsigned kTableFlops = 256 * 3 * 2;  // a product and a sum for every channel of the ramp
 
 /// The lores bus address of the frame buffer's pixel number `pixel`.
@@ -59,7 +59,8 @@ Words step_words(const TextureSettings& settings) {
 Words place_words(unsigned bits) {
   Words words;
   for (unsigned axis = 0; axis < 3; ++axis)
-    for (std::uint32_t i = 0; i < kCoordinates; ++i) words.push_back(i >> bits == 0 ? field(bits, axis, i) : 0);
+    for (std::uint32_t i = 0; i < kCoordinates; ++i)
+      words.push_back(i >> bits == 0 ? field(bits, axis, i) : 0);
   return words;
 }
 
@@ -76,6 +77,16 @@ Words table_words(const TextureSettings& settings) {
   Words words;
   for (std::size_t value = 0; value < settings.colours.size(); ++value)
     append_texel(words, settings.colours[value], static_cast<std::uint8_t>(value));
+  return words;
+}
+
+Words origin_words(const TextureSettings& settings) {
+  Words words;
+  for (const auto& origin : chunk_origins(settings)) {
+    std::uint32_t place = 0;
+    for (unsigned axis = 0; axis < 3; ++axis) place |= field(settings.bits, axis, origin[axis]);
+    words.push_back(place);
+  }
   return words;
 }
 
@@ -134,8 +145,8 @@ void send_run(HostPort& host, const Run& run) {
 
 }  // namespace
 
-void build(HostPort& host, lib::RdsDriver& driver, const lib::ProgramImage& image, const TextureSettings& settings,
-           const CubeLayout& layout) {
+void build(HostPort& host, lib::RdsDriver& driver, const lib::ProgramImage& image,
+           const TextureSettings& settings, const CubeLayout& layout) {
   DENDRO_CHECK(settings.kind != TextureKind::kNone && layout.bits() == settings.bits, "{} {}", layout.bits(),
                settings.bits);
   const auto write = [&](const char* name, const Words& words) {
@@ -164,6 +175,7 @@ void build(HostPort& host, lib::RdsDriver& driver, const lib::ProgramImage& imag
     write("plain", plain);
     write("palette", palette_words(settings));
     write("places", place_words(settings.bits));
+    write("origins", origin_words(settings));
   }
   driver.start(image.entry);
   host.phase("finish");

@@ -11,18 +11,18 @@ enum TextureParams : unsigned {
   kTextureMipLevels,  ///< to be made beside the finest
   kTextureChunks,
   kTextureChunkEdge,
-  kTextureSide,       ///< texels
+  kTextureSide,  ///< texels
   kTextureParamsWords
 };
 
-/// Makes the cube and all its MIP levels in the frame buffer: sends tables and seeds, starts texture.gia, which
-/// must be loaded at `image.entry`, and waits for it. Bits of the pixels outside the cube's byte planes stay.
-/// settings.kind is not kNone, layout.bits() is settings.bits.
-void build(HostPort& host, lib::RdsDriver& driver, const lib::ProgramImage& image, const TextureSettings& settings,
-           const CubeLayout& layout);
+/// Makes the cube and all its MIP levels in the frame buffer: sends tables and seeds, starts texture.gia,
+/// which must be loaded at `image.entry`, and waits for it. Bits of the pixels outside the cube's byte planes
+/// stay. settings.kind is not kNone, layout.bits() is settings.bits.
+void build(HostPort& host, lib::RdsDriver& driver, const lib::ProgramImage& image,
+           const TextureSettings& settings, const CubeLayout& layout);
 
-/// Sends a cube that was made beforehand to where build() would put it: word accesses of 8 pixels x 4 bits, which reach
-/// one byte plane only. `cube` has all levels of the layout.
+/// Sends a cube that was made beforehand to where build() would put it: word accesses of 8 pixels x 4 bits,
+/// which reach one byte plane only [format ASSUMED DEV-052]. `cube` has all levels of the layout.
 void send(HostPort& host, const CubeBytes& cube, const CubeLayout& layout);
 
 }  // namespace dendro::half_space

@@ -10,18 +10,19 @@
 namespace dendro::half_space {
 namespace {
 
-constexpr std::uint64_t kStream = 9;  // of the scene's seed, for the cube
+constexpr std::uint64_t kStream = 9, kOriginStream = 10;  // of the scene's seed, for the cube
 constexpr std::int64_t kMostChunks = 20'000;
 constexpr std::size_t kMostColours = 16;
 constexpr std::uint32_t kFrameBufferPixels = 512 * 512;
 constexpr std::uint32_t kAllDraws = 0x10000;
-constexpr double kSpread = 56;  // of the values about their middle  ASSUMED DEV-050
+constexpr double kLargestDisplacement = 128;  // from the middle to the ends of the values  ASSUMED DEV-050
 
 // Leaves as chunks and as a ramp, when the scene does not say.  ASSUMED DEV-051
 const std::vector<std::vector<double>> kLeafChunks = {
     {58, 104, 34, 0.35}, {84, 132, 44, 0.25}, {40, 78, 26, 0.25}, {122, 156, 66, 0.15}};
 const std::vector<double> kLeafBase = {26, 54, 18};
-const std::vector<std::vector<double>> kLeafRamp = {{14, 34, 10}, {46, 88, 28}, {88, 136, 48}, {158, 180, 92}};
+const std::vector<std::vector<double>> kLeafRamp = {
+    {14, 34, 10}, {46, 88, 28}, {88, 136, 48}, {158, 180, 92}};
 
 bool is_level(double value) { return value >= 0 && value <= 255; }
 
@@ -32,10 +33,12 @@ Rgb rounded(const std::vector<double>& colour) {
 }
 
 std::vector<std::vector<double>> colours_of(scene::Options& options, const char* key, std::size_t size,
-                                            std::size_t most, const std::vector<std::vector<double>>& otherwise) {
+                                            std::size_t most,
+                                            const std::vector<std::vector<double>>& otherwise) {
   std::vector<std::vector<double>> rows = options.vectors(key, size);
   if (!options.has(key)) rows = otherwise;
-  if (rows.empty() || rows.size() > most) options.fail(key, fmt::format("must be a list of 1 to {} colours", most));
+  if (rows.empty() || rows.size() > most)
+    options.fail(key, fmt::format("must be a list of 1 to {} colours", most));
   for (const std::vector<double>& row : rows)
     for (int c = 0; c < 3; ++c)
       if (!is_level(row[c])) options.fail(key, "red, green and blue must be in 0..255");
@@ -50,7 +53,8 @@ std::vector<ChunkColour> read_chunk_colours(scene::Options& options, const Rgb& 
     if (!(row[3] > 0)) options.fail("chunk_colours", "every share must be above 0");
     sum += row[3];
     if (sum > 1 + kRounding) options.fail("chunk_colours", "the shares add up to more than 1");
-    colours.push_back({rounded(row), static_cast<std::uint32_t>(std::lround(std::min(sum, 1.0) * kAllDraws))});
+    colours.push_back(
+        {rounded(row), static_cast<std::uint32_t>(std::lround(std::min(sum, 1.0) * kAllDraws))});
   }
   colours.push_back({base, kAllDraws});
   return colours;
@@ -75,14 +79,16 @@ void check_place(const TextureSettings& settings, scene::Options& options, const
   const std::uint64_t pixels = std::uint64_t{4} << 3 * settings.bits;
   const std::uint32_t room = settings.wide ? kFrameBufferPixels : kFrameBufferPixels / 2;
   if (pixels > room)
-    options.fail("cube_bits", fmt::format("{0} x {0} x {0} texels take {1} pixels and do not fit the {2} that "
-                                          "the frame buffer has for them; must be 4 or 5",
-                                          1 << settings.bits, pixels, room));
+    options.fail("cube_bits",
+                 fmt::format("{0} x {0} x {0} texels take {1} pixels and do not fit the {2} that "
+                             "the frame buffer has for them; must be 4 or 5",
+                             1 << settings.bits, pixels, room));
   if (!settings.wide && image.height > kHalfPictureLines)
-    throw UserError(image.where.file, image.where.line, "image.height",
-                    fmt::format("{} lines do not fit the frame buffer beside the texture cube, which takes lines {} to "
-                                "511 of 24-bit pixels; at most {}, or a machine with 32-bit pixels",
-                                image.height, kHalfPictureLines, kHalfPictureLines));
+    throw UserError(
+        image.where.file, image.where.line, "image.height",
+        fmt::format("{} lines do not fit the frame buffer beside the texture cube, which takes lines {} to "
+                    "511 of 24-bit pixels; at most {}, or a machine with 32-bit pixels",
+                    image.height, kHalfPictureLines, kHalfPictureLines));
 }
 
 }  // namespace
@@ -91,7 +97,9 @@ TextureSettings read_texture(scene::Options& options, const scene::Image& image,
                              std::uint64_t scene_seed) {
   TextureSettings settings;
   const std::string kind = options.choice("texture", "none", {"none", "chunks", "fbm"});
-  settings.kind = kind == "chunks" ? TextureKind::kChunks : kind == "fbm" ? TextureKind::kFbm : TextureKind::kNone;
+  settings.kind = kind == "chunks" ? TextureKind::kChunks
+                  : kind == "fbm"  ? TextureKind::kFbm
+                                   : TextureKind::kNone;
   settings.from_host = options.choice("texture_from", "machine", {"machine", "host"}) == "host";
   settings.bits = static_cast<unsigned>(options.integer("cube_bits", 5, 4, 8));
   const std::string layout = options.choice("layout", "auto", {"auto", "wide", "half"});
@@ -107,24 +115,22 @@ TextureSettings read_texture(scene::Options& options, const scene::Image& image,
   settings.colours = read_ramp(options);
   if (settings.kind == TextureKind::kNone) return settings;
   if (settings.wide && !fourth_byte)
-    options.fail("layout", fmt::format("\"wide\" keeps the texture cube in the pixels' fourth byte; this machine's "
-                                       "have {} bits", pixel_bits));
+    options.fail("layout",
+                 fmt::format("\"wide\" keeps the texture cube in the pixels' fourth byte; this machine's "
+                             "have {} bits",
+                             pixel_bits));
   check_place(settings, options, image);
   return settings;
 }
 
 std::vector<Amplitudes> amplitudes(unsigned bits, double hurst) {
-  // Uniform numbers: the variance of +-a is a^2 / 3. That of the cells' middles, over all halvings, is kSpread squared.
-  double sum = 0;
-  for (unsigned halving = 0; halving < bits; ++halving) sum += std::pow(0.25, halving * hurst) / 3;
-  const double largest = kSpread / std::sqrt(sum);
   std::vector<Amplitudes> result;
   for (unsigned halving = 0; halving < bits; ++halving) {
     const auto of = [&](double squared_distance) {
       const double share = std::pow(squared_distance / 3, hurst / 2) * std::pow(0.5, halving * hurst);
-      return static_cast<std::uint32_t>(std::lround(16 * largest * share));
+      return static_cast<std::uint32_t>(std::lround(16 * kLargestDisplacement * share));
     };
-    result.push_back({of(3), of(2), of(1)});
+    result.push_back({of(3), of(2), of(1)});  // in half cells: to corners, across a face, along an edge
   }
   return result;
 }
@@ -132,15 +138,27 @@ std::vector<Amplitudes> amplitudes(unsigned bits, double hurst) {
 std::size_t texture_draws(const TextureSettings& settings) {
   constexpr std::size_t kDrawsPerChunk = 4;  // three coordinates and a colour
   switch (settings.kind) {
-    case TextureKind::kNone: return 0;
-    case TextureKind::kChunks: return kDrawsPerChunk * static_cast<std::size_t>(settings.chunks);
-    case TextureKind::kFbm: return (std::size_t{1} << 3 * settings.bits) - 1;
+    case TextureKind::kNone:
+      return 0;
+    case TextureKind::kChunks:
+      return kDrawsPerChunk * static_cast<std::size_t>(settings.chunks);
+    case TextureKind::kFbm:
+      return (std::size_t{1} << 3 * settings.bits) - 1;
   }
   return 0;
 }
 
 std::vector<std::uint32_t> texture_seeds(const TextureSettings& settings) {
   return seed_table(settings.seed, kStream, seeds_for(texture_draws(settings)));
+}
+
+std::vector<std::array<std::uint32_t, 3>> chunk_origins(const TextureSettings& settings) {
+  std::vector<std::array<std::uint32_t, 3>> origins;
+  const std::uint32_t last = (1u << settings.bits) - 1;
+  for (const std::uint32_t word :
+       seed_table(settings.seed, kOriginStream, seeds_for(texture_draws(settings))))
+    origins.push_back({word >> 11 & last, word >> 6 & last, word >> 1 & last});
+  return origins;
 }
 
 }  // namespace dendro::half_space

@@ -16,6 +16,7 @@ namespace {
 constexpr double kRadiansPerDegree = 3.14159265358979323846 / 180.0;
 constexpr double kPineStretch = 2.5;  // ASSUMED DEV-045
 constexpr int kMostStarts = 64;
+constexpr double kShortestStart = 1e-9, kLongestStart = 1e9;  // their squares are far from a double's ends
 constexpr int kMostGenerations = 8;
 constexpr int kMostCopies = 2000;
 
@@ -26,11 +27,13 @@ double uniform(std::mt19937_64& random, double low, double high) {
 // Defaults and ranges: ASSUMED DEV-045
 GrowthParameters read_growth(const scene::Object& object, scene::Options& options) {
   GrowthParameters p;
-  const double radius = options.real("radius", 1.0, 1e-9, 1e9);
+  const double radius = options.real("radius", 1.0, kShortestStart, kLongestStart);
   const auto count = static_cast<int>(options.integer("start_normals", 6, 1, kMostStarts));
   for (const std::vector<double>& row : options.vectors("start", 3)) {
     p.start.emplace_back(row[0], row[1], row[2]);
-    if (!(glm::length(p.start.back()) > 0)) options.fail("start", "a start normal must not be zero");
+    const double length = glm::length(p.start.back());
+    if (!(length >= kShortestStart && length <= kLongestStart))
+      options.fail("start", "a start normal must be 1e-9 to 1e9 long, not zero");
   }
   if (options.has("start") && p.start.empty())
     options.fail("start", "the list is empty: 0 normals bound nothing");

@@ -10,7 +10,7 @@
 #include "sim/scene/scene.h"
 #include "sim/scene/view.h"
 
-// S11: the trunk under a crown. Its place and size come from the crown's.
+// S11: the trunk under a crown. Its place and size come from the crown's.  ASSUMED DEV-056
 
 namespace dendro::half_space {
 

@@ -64,6 +64,7 @@ double inside_of(const Trapezium& trapezium, int x, int y) {
 struct Seen {
   double depth;
   int hull, lower, upper;
+  bool sure = false;  ///< the integers cover the pixel by that hull, too
 };
 
 class Renderer {
@@ -85,6 +86,7 @@ class Renderer {
     picture_.hull.push_back(seen.hull);
     picture_.unbounded.push_back(unbounded && seen.hull == -1);
     picture_.lower.push_back(seen.lower), picture_.upper.push_back(seen.upper);
+    picture_.certain.push_back(seen.sure && seen.hull >= 0 && seen.lower == seen.upper);
     const Rgb& rgb = prepared_.shades[static_cast<std::size_t>(floor_of(seen.depth))];
     picture_.rgb.insert(picture_.rgb.end(), rgb.begin(), rgb.end());
   }
@@ -93,13 +95,13 @@ class Renderer {
   void merge(const Span& span, std::size_t hull, std::optional<int> move, Seen& seen) const {
     const auto moved = [&](auto front) { return move ? std::max<decltype(front)>(1, front + *move) : front; };
     const double front = moved(span.front);
-    if (is_covered(span, far_) && (!move || front < span.back) && front < seen.depth)
-      seen.depth = front, seen.hull = static_cast<int>(hull);
     const int least = moved(floor_of(span.front - kDrift)), most = moved(floor_of(span.front + kDrift));
     if (is_possibly_covered(span, far_) && (!move || least < floor_of(span.back + kDrift)))
       seen.lower = std::min(seen.lower, least);
-    if (is_surely_covered(span, far_) && (!move || most < floor_of(span.back - kDrift)))
-      seen.upper = std::min(seen.upper, most);
+    const bool sure = is_surely_covered(span, far_) && (!move || most < floor_of(span.back - kDrift));
+    if (sure) seen.upper = std::min(seen.upper, most);
+    if (is_covered(span, far_) && (!move || front < span.back) && front < seen.depth)
+      seen.depth = front, seen.hull = static_cast<int>(hull), seen.sure = sure;
   }
 
   void merge_trunk(const Trunk& trunk, int x, int y, Seen& seen) const {
@@ -165,8 +167,7 @@ ErrorReport compare(const HullsReference& reference, const std::vector<std::uint
     report.wrong_pixels += covered != drawn || (trunk && nearest[i] != kTrunkMark);
     unbounded.covered += covered, unbounded.unbounded += reference.unbounded[i];
     outside += nearest[i] < reference.lower[i] || nearest[i] > reference.upper[i];
-    const bool certain = covered && !trunk && drawn && reference.upper[i] == reference.lower[i];
-    if (certain)
+    if (reference.certain[i] && drawn)
       report.max_depth_error =
           std::max(report.max_depth_error, std::abs(nearest[i] + 0.5 - reference.depth[i]));
   }

@@ -23,6 +23,7 @@ struct HullsReference {
   /// What the integers may make of it: the third register lies in lower..upper. They differ where a hull is
   /// thinner than one unit of depth, or its edge nearer than the drift of the steps.
   std::vector<int> lower, upper;
+  std::vector<std::uint8_t> certain;  ///< per pixel: 1 where that is the depth of the hull seen and nothing else
 };
 
 /// By how many depths roughening moves the front of a hull, by its index, at pixel x, y.

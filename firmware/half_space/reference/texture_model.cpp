@@ -59,12 +59,15 @@ class Texels {
 
 void place_chunks(Texels& texels, const TextureSettings& settings, Numbers& numbers) {
   const int side = texels.side(), edge = settings.chunk_edge;
+  const auto origins = chunk_origins(settings);
   for (int z = 0; z < side; ++z)
     for (int y = 0; y < side; ++y)
       for (int x = 0; x < side; ++x) texels.set({x, y, z}, settings.base, 0);
   for (int chunk = 0; chunk < settings.chunks; ++chunk) {
+    const auto& origin = origins[static_cast<std::size_t>(chunk) * 4 / kDrawsPerSeed];
     Point at;
-    for (int& coordinate : at) coordinate = static_cast<int>(numbers.draw() * side >> 16);
+    for (int axis = 0; axis < 3; ++axis)
+      at[axis] = static_cast<int>((numbers.draw() * side >> 16) + origin[axis]);
     const std::uint32_t draw = numbers.draw();
     const ChunkColour& colour =
         *std::find_if(settings.chunk_colours.begin(), settings.chunk_colours.end(),

@@ -15,6 +15,10 @@ stability::Result depth_drift(const stability::Rig& rig, std::uint64_t seed);   
 stability::Result edge_on_planes(const stability::Rig& rig, std::uint64_t seed);   // N-A3
 stability::Result register_width(const stability::Rig& rig, std::uint64_t seed);   // N-A4
 stability::Result ties(const stability::Rig& rig, std::uint64_t seed);             // N-A5
+stability::Result third_register(const stability::Rig& rig, std::uint64_t seed);   // N-A6
+stability::Result texture_index(const stability::Rig& rig, std::uint64_t seed);    // N-A7
+stability::Result texture_drift(const stability::Rig& rig, std::uint64_t seed);    // N-A8
+stability::Result splitting(const stability::Rig& rig, std::uint64_t seed);        // N-A9
 stability::Result multiplier(const stability::Rig& rig, std::uint64_t seed);       // N-A10
 stability::Result permuted_planes(const stability::Rig& rig, std::uint64_t seed);  // X1
 stability::Result quarter_turn(const stability::Rig& rig, std::uint64_t seed);     // X2

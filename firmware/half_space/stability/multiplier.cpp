@@ -13,7 +13,8 @@ namespace {
 using stability::Bound;
 
 constexpr const char* kProgram = "firmware/half_space/stability/multiplier.gia";
-constexpr std::size_t kBatch = 1024;
+constexpr const char* kFixedProgram = "firmware/half_space/stability/fixed_multiply.gia";
+constexpr std::size_t kBatch = 1024, kFixedBatch = 512;
 constexpr int kRandomPairs = 4096;
 
 constexpr std::uint16_t kCorners[] = {0x0000, 0x0001, 0x0002, 0x0003, 0x00FF, 0x0100, 0x0FFF, 0x1000,
@@ -78,6 +79,70 @@ std::vector<std::uint32_t> on_machine(const stability::Rig& rig, const std::vect
   return results;
 }
 
+using Factors = std::pair<std::uint32_t, std::uint32_t>;
+
+/// Numbers in 16.16 whose halves are corners, and random ones.
+std::vector<Factors> factors(std::uint64_t seed) {
+  std::mt19937_64 random(seed + 1);
+  std::vector<Factors> all;
+  const auto corner = [&] { return std::uint32_t{kCorners[random() % std::size(kCorners)]}; };
+  for (int i = 0; i < kRandomPairs; ++i) {
+    const std::uint32_t a = corner() << 16 | corner(), b = corner() << 16 | corner();
+    all.emplace_back(a, b);
+    all.emplace_back(static_cast<std::uint32_t>(random()), static_cast<std::uint32_t>(random()));
+  }
+  return all;
+}
+
+/// Products in 16.16, rounded down, modulo 2^32.
+std::vector<std::uint32_t> fixed_on_machine(const stability::Rig& rig, const std::vector<Factors>& all) {
+  const lib::ProgramImage image = rig.program(kFixedProgram);
+  std::vector<std::uint32_t> results;
+  rig.run(
+      [&](HostPort& host) {
+        lib::RdsDriver driver(host);
+        driver.load_program(image);
+        for (std::size_t at = 0; at < all.size(); at += kFixedBatch) {
+          const std::size_t count = std::min(kFixedBatch, all.size() - at);
+          std::vector<std::uint32_t> words;
+          for (std::size_t i = at; i < at + count; ++i)
+            words.insert(words.end(), {all[i].first, all[i].second});
+          driver.write_scratch(image.scratch.at("count").address, {static_cast<std::uint32_t>(count)});
+          driver.write_scratch(image.scratch.at("pairs").address, words);
+          driver.start(image.entry);
+          driver.wait();
+          const auto got = driver.read_scratch(image.scratch.at("results").address, count);
+          results.insert(results.end(), got.begin(), got.end());
+        }
+      },
+      [](const MachineView&) {});
+  return results;
+}
+
+stability::Row fixed_row(const stability::Rig& rig, std::uint64_t seed) {
+  const std::vector<Factors> all = factors(seed);
+  const std::vector<std::uint32_t> results = fixed_on_machine(rig, all);
+  Tally tally;
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    const mpz_class product = mpz_class(static_cast<std::int32_t>(all[i].first)) *
+                              mpz_class(static_cast<std::int32_t>(all[i].second));
+    mpz_class down;
+    mpz_fdiv_q_2exp(down.get_mpz_t(), product.get_mpz_t(), 16);
+    mpz_fdiv_r_2exp(down.get_mpz_t(), down.get_mpz_t(), 32);
+    if (results[i] != down.get_ui())
+      tally.fault(fmt::format("step {}: 0x{:08x} times 0x{:08x} is 0x{:08x}, not 0x{:08x}", i, all[i].first,
+                              all[i].second, results[i], down.get_ui()));
+  }
+  return {"N-A10",
+          fmt::format("16.16 product of four signed ones, {} pairs", all.size()),
+          static_cast<double>(tally.count),
+          0,
+          "products",
+          "gmp",
+          Bound::kAtMost,
+          tally.first};
+}
+
 }  // namespace
 
 stability::Result multiplier(const stability::Rig& rig, std::uint64_t seed) {
@@ -96,6 +161,7 @@ stability::Result multiplier(const stability::Rig& rig, std::uint64_t seed) {
     result.rows.push_back({"N-A10", fmt::format("{}, {} pairs", kResults[k], all.size()),
                            static_cast<double>(tallies[k].count), 0, "products", "gmp", Bound::kAtMost,
                            tallies[k].first});
+  result.rows.push_back(fixed_row(rig, seed));
   return result;
 }
 

@@ -5,28 +5,43 @@
 #include <cmath>
 
 #include "firmware/half_space/host/host_program.h"
+#include "firmware/half_space/host/hulls_program.h"
 
 namespace dendro::half_space {
 namespace {
 
 constexpr const char* kProgram = "firmware/half_space/rds3000/half_space.gia";
+constexpr const char* kHullsProgram = "firmware/half_space/rds3000/hulls.gia";
 constexpr unsigned kLoresPixel = 2;  // bus function code
+
+Words read_words(const MachineView& machine, int width, int height) {
+  Words words;
+  for (int y = 0; y < height; ++y)
+    for (int x = 0; x < width; ++x)
+      words.push_back(machine.peek(static_cast<std::uint32_t>(x) << 1 | static_cast<std::uint32_t>(y) << 11,
+                                   kLoresPixel));
+  return words;
+}
 
 }  // namespace
 
 Words draw_all(const stability::Rig& rig, const std::vector<Prepared>& parts) {
   const lib::ProgramImage image = rig.program(kProgram);
+  const PlaneProgram& first = parts.front().program;
   Words words;
   rig.run(
       [&](HostPort& host) {
         for (const Prepared& part : parts) run(host, part, image);
       },
-      [&](const MachineView& machine) {
-        for (int y = 0; y < parts.front().program.height; ++y)
-          for (int x = 0; x < parts.front().program.width; ++x)
-            words.push_back(machine.peek(
-                static_cast<std::uint32_t>(x) << 1 | static_cast<std::uint32_t>(y) << 11, kLoresPixel));
-      });
+      [&](const MachineView& machine) { words = read_words(machine, first.width, first.height); });
+  return words;
+}
+
+Words draw_hulls(const stability::Rig& rig, const PreparedHulls& prepared) {
+  const lib::ProgramImage image = rig.program(kHullsProgram);
+  Words words;
+  rig.run([&](HostPort& host) { run(host, prepared, image); },
+          [&](const MachineView& machine) { words = read_words(machine, prepared.width, prepared.height); });
   return words;
 }
 

@@ -9,6 +9,8 @@
 
 namespace dendro::half_space {
 
+struct PreparedHulls;
+
 /// Words of the image memory, width * height, rows top down.
 using Words = std::vector<std::uint32_t>;
 
@@ -17,6 +19,9 @@ Words draw(const stability::Rig& rig, const Prepared& prepared);
 
 /// Several programs one after the other on one machine; the picture is that of the whole frame.
 Words draw_all(const stability::Rig& rig, const std::vector<Prepared>& parts);
+
+/// The picture that the program for several hulls leaves, registers and all.
+Words draw_hulls(const stability::Rig& rig, const PreparedHulls& prepared);
 
 /// Planes that are on the screen already, scanned over the whole picture in their order.
 Prepared from_screen(std::vector<ScreenPlane> planes, int width, int height,

@@ -8,7 +8,7 @@
 namespace dendro::lib {
 
 /// Programs that take turns in the control store: one page of 4,096 words holds one, assembled at origin 0 [FG86 6.2:
-/// the programs do not fit together and are loaded one after another].
+/// the programs do not fit together and are loaded one after another].  ASSUMED DEV-057
 class Overlays {
  public:
   /// `control_store_words`: a multiple of 4,096; a store of more than eight pages shows eight of them.

@@ -1,5 +1,8 @@
 #include "sim/study/interval.h"
 
+#include <cmath>
+#include <set>
+
 #include "sim/study/cache.h"
 #include "tests/core/study/fake_machine.h"
 
@@ -96,6 +99,27 @@ TEST_F(IntervalTest, SamplesStayInsideTheRangesAndAreTheSameEveryTime) {
   const Interval sampled = interval(request(), 50);
   EXPECT_EQ(corners.low, sampled.low) << "the fake is monotonic, so no sample lies outside its corners";
   EXPECT_EQ(corners.high, sampled.high);
+}
+
+TEST_F(IntervalTest, ALatinHypercubeHasOnePointInEveryStratumOfEveryParameter) {
+  const auto parameters = varied_parameters(request().preset.parameters);
+  constexpr int kPoints = 26;  // the first range holds as many integers
+  const auto points = latin_hypercube(parameters, kPoints, 7);
+  ASSERT_EQ(std::size_t{kPoints}, points.size());
+  std::set<std::int64_t> whole, strata;
+  int dense = 0;
+  for (const Assignment& point : points) {
+    whole.insert(std::get<std::int64_t>(point.at("delay.a_ticks")));
+    const double rate = std::get<double>(point.at("rate.words_per_s"));
+    strata.insert(static_cast<std::int64_t>(std::floor(std::log2(rate / 50) / 2 * kPoints)));
+    dense += std::get<std::string>(point.at("mode.kind")) == "dense";
+  }
+  EXPECT_EQ(std::size_t{kPoints}, whole.size()) << "5 to 30, each once";
+  EXPECT_EQ(std::size_t{kPoints}, strata.size()) << "a logarithmic range has strata of equal ratio";
+  EXPECT_EQ(kPoints / 2, dense);
+  EXPECT_EQ(points, latin_hypercube(parameters, kPoints, 7));
+  EXPECT_NE(points, latin_hypercube(parameters, kPoints, 8));
+  EXPECT_TRUE(latin_hypercube(parameters, 0, 7).empty());
 }
 
 TEST_F(IntervalTest, WorkersGiveWhatThisProcessGives) {

@@ -1,5 +1,6 @@
 #include "sim/study/table.h"
 
+#include "sim/study/table_rows.h"
 #include "tests/core/study/fake_machine.h"
 
 namespace dendro::study {
@@ -53,6 +54,59 @@ TEST(Table, AnUnknownKeyListsTheKnownOnes) {
   } catch (const UserError& e) {
     EXPECT_STREQ("FG87: there is no such table: known are all, FG86", e.what());
   }
+}
+
+/// What grouped_table() needs when nothing is run.
+struct NoRuns {
+  Catalogue catalogue = fake::catalogue();
+  TableOptions options;
+  RunCache cache;
+  TableContext context{catalogue, options, cache, nullptr};
+};
+
+TEST(GroupedTable, AGroupThatThrowsLosesItsRowsFiguresAndSaysWhyTheOthersStay) {
+  const auto good = [](const TableContext&, std::vector<TableRow>& rows) { set_single(rows[0], 3); };
+  const auto bad = [](const TableContext&, std::vector<TableRow>& rows) {
+    set_single(rows[0], 5);
+    throw UserError("--set", 0, "half_space.depth_bits", "12 is outside the allowed 6..8");
+  };
+  const PaperTable table =
+      grouped_table("X",
+                    {{"refused", {claim("X-2", "two", "s", 1.0), claim("X-3", "three", "s")}, bad},
+                     {"", {claim("X-1", "one", "s", 3.0)}, good}},
+                    {});
+  EXPECT_EQ(std::vector<std::string>{"X-2, 3: refused"}, table.plan);
+  const std::vector<TableRow> rows = table.make(NoRuns().context);
+  ASSERT_EQ(3u, rows.size());
+  EXPECT_EQ(3.0, *rows[0].simulated);
+  EXPECT_TRUE(rows[0].inside());
+  for (std::size_t i : {1u, 2u}) {
+    EXPECT_FALSE(rows[i].simulated || rows[i].low || rows[i].high);
+    EXPECT_EQ("no figure: --set: half_space.depth_bits: 12 is outside the allowed 6..8", rows[i].note);
+  }
+  EXPECT_EQ(1.0, *rows[1].published);
+}
+
+TEST(GroupedTable, RowsAreInTheOrderOfTheirClaimsNumbers) {
+  const auto fill = [](const TableContext&, std::vector<TableRow>& rows) {
+    for (TableRow& row : rows) set_single(row, 0);
+  };
+  const PaperTable table = grouped_table(
+      "AB86",
+      {{"", {claim("AB86-A10b", "", ""), claim("AB86-A2", "", "")}, fill},
+       {"", {claim("AB86-A10", "", ""), claim("AB86-A9b", "", ""), claim("AB86-A9a", "", "")}, fill}},
+      {});
+  std::string ids;
+  for (const TableRow& row : table.make(NoRuns().context)) ids += row.id.substr(5) + " ";
+  EXPECT_EQ("A2 A9a A9b A10 A10b ", ids);
+}
+
+TEST(TableText, WritesCountsInFullAndTimesWithFourDigits) {
+  const std::string text =
+      table_text({row(6291456, 6291456, 6291456, 6291456), row(12.5, 13.6789, 10.20123, 23.2)});
+  EXPECT_NE(std::string::npos, text.find("6291456 .. 6291456")) << text;
+  EXPECT_NE(std::string::npos, text.find("13.68")) << text;
+  EXPECT_NE(std::string::npos, text.find("10.2 .. 23.2")) << text;
 }
 
 }  // namespace

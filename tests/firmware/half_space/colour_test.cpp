@@ -19,7 +19,7 @@ constexpr const char* kProgram = "firmware/half_space/rds3000/colour.gia";
 
 Frame coloured(const Frame& before, const Colouring& colouring, unsigned cards, const std::string& pack) {
   const lib::ProgramImage image = assembled(kProgram, pack);
-  return frame_after(before, image, cards,
+  return frame_after(before, image, with_cards(cards),
                      [&](lib::RdsDriver& driver) { run_colour(driver, image, colouring); });
 }
 
@@ -93,6 +93,23 @@ TEST(ColourMicrocode, WholeFramesAreExactAlsoWhenEveryPixelIsTrunk) {
   const Colouring half =
       make_colouring(settings, random_map(random), cube_layout(5, false), 512, 256, 512 * 256, kSeed, 2);
   expect_exact(random_frame(random, 3, 20), half, 3, "half");
+}
+
+TEST(ColourMicrocode, IsTheSameWithASlowerMultiplier) {
+  std::mt19937 random(kSeed + 1);
+  ColourSettings settings;
+  settings.level = 1, settings.trunk_base = {60, 30, 10}, settings.trunk_range = {40, 20, 10};
+  const Colouring colouring =
+      make_colouring(settings, random_map(random), cube_layout(5, false), 200, 100, 20'000, kSeed, 1);
+  const Frame before = random_frame(random, 3, 20);
+  Frame wanted = before;
+  colour_model(colouring, wanted);
+  for (const char* pack : {"none", "full"}) {
+    const lib::ProgramImage image = assembled(kProgram, pack, 4);
+    EXPECT_EQ(wanted, frame_after(before, image, with_multiplier(4),
+                                  [&](lib::RdsDriver& driver) { run_colour(driver, image, colouring); }))
+        << pack;
+  }
 }
 
 TEST(ColourMicrocode, BarkIsUniformOverBaseToBasePlusRange) {

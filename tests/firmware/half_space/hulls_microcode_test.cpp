@@ -1,16 +1,12 @@
 #include <gtest/gtest.h>
 
-#include <fstream>
-#include <iterator>
 #include <random>
 
 #include "firmware/half_space/host/hulls_layout.h"
 #include "firmware/half_space/host/hulls_program.h"
 #include "firmware/half_space/reference/hulls_fixed_point.h"
 #include "firmware/half_space/reference/hulls_reference.h"
-#include "firmware/tools/assembler.h"
-#include "models/machines/rds3000/function.h"
-#include "models/parts/bps32/bps32_isa.h"
+#include "tests/firmware/half_space/program_on_machine.h"
 #include "tests/firmware/half_space/random_hulls.h"
 
 namespace dendro::half_space {
@@ -21,17 +17,7 @@ using namespace testing_scenes;
 constexpr unsigned kSeed = 5;
 
 lib::ProgramImage microcode(const std::string& pack) {
-  std::ifstream in(HULLS_MICROCODE);
-  const std::string source{std::istreambuf_iterator<char>(in), {}};
-  tools::AssembleOptions options;
-  options.pack = pack;
-  const tools::Ucode ucode = tools::assemble(source, HULLS_MICROCODE, options).ucode;
-  lib::ProgramImage image;
-  image.words = ucode.words;
-  image.entry = ucode.entry;
-  for (const auto& [name, area] : ucode.scratch) image.scratch[name] = {area.address, area.size};
-  image.initial_scratch = ucode.scratch_data;
-  return image;
+  return testing_programs::assembled("firmware/half_space/rds3000/hulls.gia", pack);
 }
 
 std::vector<std::uint32_t> pixels_of(const PreparedHulls& prepared, const lib::ProgramImage& image) {

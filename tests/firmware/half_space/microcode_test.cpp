@@ -1,14 +1,10 @@
 #include <gtest/gtest.h>
 
-#include <fstream>
-#include <iterator>
 #include <random>
 
 #include "firmware/half_space/host/host_program.h"
-#include "firmware/tools/assembler.h"
-#include "models/machines/rds3000/function.h"
-#include "models/parts/bps32/bps32_isa.h"
-#include "tests/firmware/half_space/scenes.h"
+#include "tests/firmware/half_space/program_on_machine.h"
+#include "tests/firmware/half_space/random_hulls.h"
 
 namespace dendro::half_space {
 namespace {
@@ -18,17 +14,7 @@ using namespace testing_scenes;
 constexpr unsigned kSeed = 11;
 
 ProgramImage microcode(const std::string& pack) {
-  std::ifstream in(MICROCODE);
-  const std::string source{std::istreambuf_iterator<char>(in), {}};
-  tools::AssembleOptions options;
-  options.pack = pack;
-  const tools::Ucode ucode = tools::assemble(source, MICROCODE, options).ucode;
-  ProgramImage image;
-  image.words = ucode.words;
-  image.entry = ucode.entry;
-  for (const auto& [name, area] : ucode.scratch) image.scratch[name] = {area.address, area.size};
-  image.initial_scratch = ucode.scratch_data;
-  return image;
+  return testing_programs::assembled("firmware/half_space/rds3000/half_space.gia", pack);
 }
 
 /// The image memory after the microcode has run, word by word against the integer model.
@@ -47,32 +33,9 @@ void expect_exact(const Prepared& prepared, const ProgramImage& image, const std
     }
 }
 
-/// A random closed hull around the origin: an axis box, some of its planes edge-on, cut by random planes.
 scene::Scene random_hull(std::mt19937& random, int side) {
-  std::normal_distribution<double> gauss;
-  std::uniform_real_distribution<double> offset(0.5, 1.2);
   scene::Scene scene = empty_scene(side);
-  scene::Object object;
-  for (int axis = 0; axis < 3; ++axis)
-    for (const double sign : {1.0, -1.0}) {
-      scene::PlaneEntry plane;
-      plane.normal = {0, 0, 0};
-      plane.normal[axis] = sign;
-      plane.offset = offset(random);
-      object.planes.push_back(plane);
-    }
-  const int more = static_cast<int>(random() % 12);
-  for (int i = 0; i < more; ++i) {
-    scene::PlaneEntry plane;
-    // Every third one nearly edge-on, so that it is steep.
-    plane.normal = {gauss(random), gauss(random), i % 3 == 0 ? gauss(random) / 200 : gauss(random)};
-    const double length = std::sqrt(plane.normal[0] * plane.normal[0] + plane.normal[1] * plane.normal[1] +
-                                    plane.normal[2] * plane.normal[2]);
-    plane.offset = offset(random) * length;
-    object.planes.push_back(plane);
-  }
-  object.source_where = {"test.toml", 10};
-  scene.objects = {object};
+  scene.objects = {random_object(random, {0.5, 1.2, 12, 200})};
   return scene;
 }
 

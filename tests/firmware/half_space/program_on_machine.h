@@ -22,10 +22,13 @@ inline std::string text_of(const std::string& path) {
   return {std::istreambuf_iterator<char>(in), {}};
 }
 
-/// A shipped microprogram, by its path below the repository's root.
-inline lib::ProgramImage assembled(const std::string& path, const std::string& pack) {
+/// A shipped microprogram, by its path below the repository's root, for a multiplier of so many words.
+inline lib::ProgramImage assembled(const std::string& path, const std::string& pack,
+                                   unsigned multiply_ticks = 2) {
   tools::AssembleOptions options;
   options.pack = pack;
+  options.multiply_ticks = multiply_ticks;
+  options.fill_products = true;
   options.include = [](const std::string& included) {
     return std::optional(text_of(SOURCE_ROOT "/" + included));
   };
@@ -46,11 +49,9 @@ inline void put_frame(HostPort& host, const Frame& frame) {
     host.dma_to(y << 11, &frame[y * kFrame], kFrame, bps32::kFnLores, 2);
 }
 
-/// The frame after `program` has run on a machine with `cards` cards and `before` in its image memory.
-inline Frame frame_after(const Frame& before, const lib::ProgramImage& image, unsigned cards,
+/// The frame after `program` has run on a machine with `before` in its image memory.
+inline Frame frame_after(const Frame& before, const lib::ProgramImage& image, const rds3000::Spec& spec,
                          const std::function<void(lib::RdsDriver&)>& program) {
-  rds3000::Spec spec;
-  spec.memory.cards_per_bank = cards;
   MachineOptions options;
   options.tick_limit = 2'000'000'000;
   rds3000::FunctionEngine machine(spec, options);
@@ -62,6 +63,20 @@ inline Frame frame_after(const Frame& before, const lib::ProgramImage& image, un
   for (std::uint32_t y = 0; y < kFrame; ++y)
     machine.dma_from(y << 11, &after[y * kFrame], kFrame, bps32::kFnLores, 2);
   return after;
+}
+
+/// A machine with 3 or 4 cards of image memory.
+inline rds3000::Spec with_cards(unsigned cards) {
+  rds3000::Spec spec;
+  spec.memory.cards_per_bank = cards;
+  return spec;
+}
+
+/// The paper's machine but for a slower multiplier.
+inline rds3000::Spec with_multiplier(int ticks) {
+  rds3000::Spec spec;
+  spec.processor.multiply_ticks = ticks;
+  return spec;
 }
 
 }  // namespace dendro::half_space::testing_programs

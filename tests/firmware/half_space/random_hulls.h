@@ -8,14 +8,20 @@
 
 namespace dendro::half_space::testing_scenes {
 
-/// A random closed hull around a point: an axis box, some of its planes edge-on, cut by random planes, every
+/// How large a random hull is and how it is cut.
+struct HullShape {
+  double nearest = 0.3, farthest = 0.8;  ///< of its planes from its centre
+  unsigned cuts = 8;                     ///< fewer than so many beside the box
+  double flatness = 2000;                ///< of every third cut, which is nearly edge-on
+};
+
+/// A random closed hull around the origin: an axis box, some of its planes edge-on, cut by random planes, every
 /// third of them nearly edge-on and so steep.
-inline scene::Object random_object(std::mt19937& random) {
+inline scene::Object random_object(std::mt19937& random, const HullShape& shape) {
   std::normal_distribution<double> gauss;
-  std::uniform_real_distribution<double> offset(0.3, 0.8);
+  std::uniform_real_distribution<double> offset(shape.nearest, shape.farthest);
   scene::Object object;
   object.source_where = {"test.toml", 10};
-  object.at = {gauss(random) / 4, gauss(random) / 4, gauss(random) / 4};
   for (int axis = 0; axis < 3; ++axis)
     for (const double sign : {1.0, -1.0}) {
       scene::PlaneEntry plane;
@@ -24,15 +30,24 @@ inline scene::Object random_object(std::mt19937& random) {
       plane.offset = offset(random);
       object.planes.push_back(plane);
     }
-  const int more = static_cast<int>(random() % 8);
+  const int more = static_cast<int>(random() % shape.cuts);
   for (int i = 0; i < more; ++i) {
     scene::PlaneEntry plane;
-    plane.normal = {gauss(random), gauss(random), i % 3 == 0 ? gauss(random) / 2000 : gauss(random)};
+    plane.normal = {gauss(random), gauss(random), i % 3 == 0 ? gauss(random) / shape.flatness : gauss(random)};
     plane.offset =
         offset(random) * std::sqrt(plane.normal[0] * plane.normal[0] + plane.normal[1] * plane.normal[1] +
                                    plane.normal[2] * plane.normal[2]);
     object.planes.push_back(plane);
   }
+  return object;
+}
+
+/// The same somewhere near the origin.
+inline scene::Object random_object(std::mt19937& random) {
+  std::normal_distribution<double> gauss;
+  const scene::Vector3 at = {gauss(random) / 4, gauss(random) / 4, gauss(random) / 4};
+  scene::Object object = random_object(random, HullShape{});
+  object.at = at;
   return object;
 }
 

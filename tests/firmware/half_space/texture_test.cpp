@@ -1,36 +1,18 @@
 #include <gtest/gtest.h>
 
-#include <fstream>
-#include <iterator>
 #include <random>
 
 #include "firmware/half_space/host/texture_program.h"
 #include "firmware/half_space/reference/texture_model.h"
-#include "firmware/tools/assembler.h"
-#include "models/machines/rds3000/function.h"
-#include "models/parts/bps32/bps32_isa.h"
+#include "tests/firmware/half_space/program_on_machine.h"
 
 namespace dendro::half_space {
 namespace {
 
 constexpr std::uint32_t kPixels = 512 * 512;
 
-std::string text_of(const std::string& path) {
-  std::ifstream in(path);
-  return {std::istreambuf_iterator<char>(in), {}};
-}
-
 lib::ProgramImage microcode(const std::string& pack) {
-  tools::AssembleOptions options;
-  options.pack = pack;
-  options.include = [](const std::string& path) { return std::optional(text_of(std::string(REPOSITORY) + "/" + path)); };
-  const tools::Ucode ucode = tools::assemble(text_of(TEXTURE_MICROCODE), TEXTURE_MICROCODE, options).ucode;
-  lib::ProgramImage image;
-  image.words = ucode.words;
-  image.entry = ucode.entry;
-  for (const auto& [name, area] : ucode.scratch) image.scratch[name] = {area.address, area.size};
-  image.initial_scratch = ucode.scratch_data;
-  return image;
+  return testing_programs::assembled("firmware/half_space/rds3000/texture.gia", pack);
 }
 
 TextureSettings settings_of(TextureKind kind, unsigned bits, bool wide, std::uint64_t seed) {
@@ -69,7 +51,8 @@ class Noisy {
       }
     }
     for (std::uint32_t pixel = 0; pixel < kPixels; ++pixel)
-      ASSERT_EQ(machine_.read(address_of(pixel), bps32::kFnLores), wanted[pixel]) << what << ", pixel " << pixel;
+      ASSERT_EQ(machine_.read(address_of(pixel), bps32::kFnLores), wanted[pixel])
+          << what << ", pixel " << pixel;
     machine_.write(0, ~0u, bps32::kFnLores);
     EXPECT_EQ(machine_.read(0, bps32::kFnLores), pixel_mask_) << what << ": the write mask is not restored";
   }
@@ -100,7 +83,8 @@ void expect_exact(const TextureSettings& settings, const lib::ProgramImage& imag
   noisy.expect_cube(make_texture(settings), layout, what);
 }
 
-class TextureMicrocode : public testing::TestWithParam<std::tuple<TextureKind, unsigned, bool, std::string>> {};
+class TextureMicrocode : public testing::TestWithParam<std::tuple<TextureKind, unsigned, bool, std::string>> {
+};
 
 TEST_P(TextureMicrocode, EveryByteOfEveryLevelIsThatOfTheIntegerModelAndOtherBitsStay) {
   const auto [kind, bits, wide, pack] = GetParam();
@@ -116,9 +100,11 @@ TEST_P(TextureMicrocode, EveryByteOfEveryLevelIsThatOfTheIntegerModelAndOtherBit
 
 INSTANTIATE_TEST_SUITE_P(Cubes, TextureMicrocode,
                          testing::Combine(testing::Values(TextureKind::kChunks, TextureKind::kFbm),
-                                          testing::Values(4u, 5u), testing::Bool(), testing::Values("none", "full")),
+                                          testing::Values(4u, 5u), testing::Bool(),
+                                          testing::Values("none", "full")),
                          [](const auto& test) {
-                           return std::string(std::get<0>(test.param) == TextureKind::kFbm ? "Fbm" : "Chunks") +
+                           return std::string(std::get<0>(test.param) == TextureKind::kFbm ? "Fbm"
+                                                                                           : "Chunks") +
                                   std::to_string(std::get<1>(test.param)) +
                                   (std::get<2>(test.param) ? "Wide" : "Half") + std::get<3>(test.param);
                          });
