@@ -46,6 +46,7 @@ enum class Source : std::uint8_t {
   kXOrData,      ///< x | D
   kXAndNotData,  ///< x & ~D
   kSum,          ///< x ^ y ^ C
+  kTree,         ///< t
   kCount
 };
 
@@ -74,6 +75,7 @@ struct MicroWord {
   bool tree = false;  ///< the tree's next bit is used
   LoopCount loop = LoopCount::kNone;  ///< the same in all words of a loop
   std::uint8_t loop_number = 0;       ///< 0..63
+  std::uint8_t constant_offset = 0;   ///< 0..63: kConstant is bit i + constant_offset of the command's constant
   bool loop_end = false;              ///< last word of its loop
   bool end = false;                   ///< last word of its program
 };
@@ -81,12 +83,13 @@ struct MicroWord {
 constexpr bool operator==(const MicroWord& p, const MicroWord& q);
 
 namespace detail {
-constexpr unsigned kFunctionLow = 0, kXLow = 4, kYLow = 7, kDataLow = 10, kSourceLow = 13, kPortsLow = 15, kAddressALow = 19,
-                   kAddressBLow = 32, kTreeLow = 45, kLoopLow = 46, kNumberLow = 49, kLoopEndLow = 55, kEndLow = 56;
+constexpr unsigned kFunctionLow = 0, kXLow = 4, kYLow = 7, kDataLow = 10, kSourceLow = 13, kPortsLow = 16, kAddressALow = 20,
+                   kAddressBLow = 33, kTreeLow = 46, kLoopLow = 47, kNumberLow = 50, kOffsetLow = 56, kLoopEndLow = 62, kEndLow = 63;
 }
 
-/// Fields from bit 0 up: function 4, x 3, y 3, data 3, source 2, read a, write a, read b, write b, port a (register 4,
-/// offset 8, indexed 1), port b the same, tree 1, loop 3, loop number 6, loop end 1, end 1; the rest is 0.
+/// Fields from bit 0 up: function 4, x 3, y 3, data 3, source 3, read a, write a, read b, write b, port a (register 4,
+/// offset 8, indexed 1), port b the same, tree 1, loop 3, loop number 6,
+/// constant offset 6, loop end 1, end 1.
 constexpr std::uint64_t pack(const MicroWord& w) {
   using namespace detail;
   const auto bits = [](auto value, unsigned low) { return static_cast<std::uint64_t>(value) << low; };
@@ -95,7 +98,8 @@ constexpr std::uint64_t pack(const MicroWord& w) {
          bits(w.read_b, kPortsLow + 2) | bits(w.write_b, kPortsLow + 3) | bits(w.register_a, kAddressALow) |
          bits(w.offset_a, kAddressALow + 4) | bits(w.indexed_a, kAddressALow + 12) | bits(w.register_b, kAddressBLow) |
          bits(w.offset_b, kAddressBLow + 4) | bits(w.indexed_b, kAddressBLow + 12) | bits(w.tree, kTreeLow) |
-         bits(w.loop, kLoopLow) | bits(w.loop_number, kNumberLow) | bits(w.loop_end, kLoopEndLow) | bits(w.end, kEndLow);
+         bits(w.loop, kLoopLow) | bits(w.loop_number, kNumberLow) |
+         bits(w.constant_offset, kOffsetLow) | bits(w.loop_end, kLoopEndLow) | bits(w.end, kEndLow);
 }
 
 /// The inverse of pack(). A field value that has no name does nothing, as if it were 0.
@@ -110,7 +114,7 @@ constexpr MicroWord unpack(std::uint64_t word) {
   w.x = named(get(kXLow, 3), Operand::kCount);
   w.y = named(get(kYLow, 3), Operand::kCount);
   w.data = named(get(kDataLow, 3), DataOp::kCount);
-  w.source = named(get(kSourceLow, 2), Source::kCount);
+  w.source = named(get(kSourceLow, 3), Source::kCount);
   w.read_a = get(kPortsLow, 1), w.write_a = get(kPortsLow + 1, 1);
   w.read_b = get(kPortsLow + 2, 1), w.write_b = get(kPortsLow + 3, 1);
   w.register_a = get(kAddressALow, 4), w.offset_a = get(kAddressALow + 4, 8), w.indexed_a = get(kAddressALow + 12, 1);
@@ -118,6 +122,7 @@ constexpr MicroWord unpack(std::uint64_t word) {
   w.tree = get(kTreeLow, 1);
   w.loop = named(get(kLoopLow, 3), LoopCount::kCount);
   w.loop_number = get(kNumberLow, 6);
+  w.constant_offset = get(kOffsetLow, 6);
   w.loop_end = get(kLoopEndLow, 1), w.end = get(kEndLow, 1);
   return w;
 }
@@ -135,29 +140,31 @@ struct ArrayWord {
   bool tree = false;
 };
 
-/// The first word of a command. Bits 0-9 entry, 10-15 fraction, 16-21 guard, 22 expression, 23 constant, 31 register
-/// write. Behind it: the expression's A, B, C in single precision, then the constant. With bit 31: bits 0-7 value, 8-11
-/// register; nothing behind it.
+/// The first word of a command. Bits 0-9 entry, 10-15 fraction, 16-21 guard, 22 expression, 23 constant, 24 second
+/// word of the constant, 31 register write. Behind it: the expression's A, B, C in single precision, then the constant,
+/// its low word first. With bit 31: bits 0-7 value, 8-11 register; nothing behind it.
 struct Header {
   bool register_write = false;
   unsigned entry = 0, fraction = 0, guard = 0;
-  bool expression = false, constant = false;
+  bool expression = false, constant = false, long_constant = false;
   unsigned register_number = 0, value = 0;
 
-  unsigned words() const { return register_write ? 1 : 1 + (expression ? 3 : 0) + (constant ? 1 : 0); }
+  unsigned words() const {
+    return register_write ? 1 : 1 + (expression ? 3 : 0) + (constant ? 1 : 0) + (long_constant ? 1 : 0);
+  }
 };
 
 constexpr std::uint32_t pack(const Header& h) {
   if (h.register_write) return 1u << 31 | (h.register_number & 15) << 8 | (h.value & 255);
   return (h.entry & 1023) | (h.fraction & 63) << 10 | (h.guard & 63) << 16 | (h.expression ? 1u << 22 : 0) |
-         (h.constant ? 1u << 23 : 0);
+         (h.constant ? 1u << 23 : 0) | (h.long_constant ? 1u << 24 : 0);
 }
 
 constexpr Header unpack_header(std::uint32_t word) {
   Header h;
   h.register_write = word >> 31;
   h.entry = word & 1023, h.fraction = word >> 10 & 63, h.guard = word >> 16 & 63;
-  h.expression = word >> 22 & 1, h.constant = word >> 23 & 1;
+  h.expression = word >> 22 & 1, h.constant = word >> 23 & 1, h.long_constant = word >> 24 & 1;
   h.register_number = word >> 8 & 15, h.value = word & 255;
   return h;
 }
@@ -166,7 +173,7 @@ constexpr Header unpack_header(std::uint32_t word) {
 struct Command {
   Header header;
   std::int64_t a = 0, b = 0, c = 0;  ///< the expression's streams: two's complement, units of 2^-fraction
-  std::uint32_t constant = 0;
+  std::uint64_t constant = 0;        ///< its low word is the one of `constant`, its high word that of `long_constant`
 };
 
 }  // namespace dendro::igc
