@@ -67,7 +67,7 @@ int WordEngine::field_of(const FieldPlace& place, bool flag) {
     to_bits();
     fields_.clear();
   }
-  fields_.push_back({place, std::vector<std::uint32_t>(static_cast<std::size_t>(spec_.pixels()))});
+  fields_.push_back({place, std::vector<TileField>(waiting_.size())});
   load(fields_.back());
   return static_cast<int>(fields_.size()) - 1;
 }
@@ -225,7 +225,7 @@ void WordEngine::run(const Batch& batch, int tile) {
     out.kind = macro.kind;
     for (int k = 0; k < 3; ++k)
       if (op.field[k] >= 0)
-        out.field[k] = fields_[static_cast<std::size_t>(op.field[k])].values.data() + static_cast<std::size_t>(tile) * kTilePixels;
+        out.field[k] = fields_[static_cast<std::size_t>(op.field[k])].tiles[static_cast<std::size_t>(tile)].values;
     out.most = static_cast<std::int32_t>(all_ones(std::max(1u, macro.fields[0].bits)));
     out.constant = static_cast<std::uint32_t>(macro.constant);
     if (macro.kind == MacroKind::kPaintIndex) {
@@ -288,7 +288,7 @@ std::uint32_t WordEngine::peek(int pixel, unsigned low) {
       waits = nullptr;
     }
     const std::uint64_t mask = static_cast<std::uint64_t>(all_ones(place.bits));
-    const std::uint64_t value = fields_[k].values[tile * kTilePixels + inside];
+    const std::uint64_t value = fields_[k].tiles[tile].values[inside];
     if (place.low >= low)
       word = (word & ~(mask << (place.low - low))) | value << (place.low - low);
     else
@@ -316,7 +316,7 @@ void WordEngine::load(Field& field) const {
     std::uint32_t value = 0;
     for (unsigned b = 0; b < field.place.bits; ++b)
       value |= static_cast<std::uint32_t>(bits_.memory[field.place.low + b][static_cast<std::size_t>(pixel) / 64] >> (pixel % 64) & 1) << b;
-    field.values[tile * kTilePixels + inside] = value;
+    field.tiles[tile].values[inside] = value;
   }
 }
 
@@ -326,10 +326,10 @@ void WordEngine::save(const Field& field) {
     for (std::size_t word = 0; word < plane.size(); ++word) {
       std::uint64_t value = 0;
       std::size_t inside = 0;
-      const std::size_t first = tile_of(static_cast<int>(word) * 64, inside) * kTilePixels + inside;
+      const std::size_t first = tile_of(static_cast<int>(word) * 64, inside);
       for (std::size_t p = 0; p < 64; ++p) {
-        const std::size_t at = first + p / kTileSide * kTilePixels + p % kTileSide;
-        value |= static_cast<std::uint64_t>(field.values[at] >> b & 1) << p;
+        const TileField& tile = field.tiles[first + p / kTileSide];
+        value |= static_cast<std::uint64_t>(tile.values[inside + p % kTileSide] >> b & 1) << p;
       }
       plane[word] = value;
     }

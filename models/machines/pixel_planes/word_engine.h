@@ -39,7 +39,7 @@ class WordEngine {
  private:
   struct Field {
     FieldPlace place;
-    std::vector<std::uint32_t> values;  ///< tile by tile
+    std::vector<TileField> tiles;
   };
 
   /// A macro-operation whose fields are numbers of fields_.
