@@ -34,9 +34,9 @@ WordEngine::WordEngine(const Spec& spec, bool lazy)
   batches_.emplace_back();
 }
 
-void WordEngine::execute(const std::vector<igc::MicroWord>& program, const igc::Command& command,
+void WordEngine::execute(const MacroProgram& program, const igc::Command& command,
                          const igc::ControllerState& controller) {
-  const auto macros = recognise(program, command, controller);
+  const auto macros = program.macros(command, controller);
   bool known = macros.has_value();
   if (known)
     for (const Macro& macro : *macros)
@@ -44,7 +44,7 @@ void WordEngine::execute(const std::vector<igc::MicroWord>& program, const igc::
         known = known && macro.fields[k].low + macro.fields[k].bits <= bits_.memory.size();
   if (!known) {
     to_bits();
-    apply_words(spec_, command, igc::expand(program, command, controller, static_cast<unsigned>(spec_.tree.gap_clocks)),
+    apply_words(spec_, command, igc::expand(program.words(), command, controller, static_cast<unsigned>(spec_.tree.gap_clocks)),
                 bits_);
     fields_.clear();
     ++counters_.bitwise_commands;
@@ -277,9 +277,7 @@ std::uint32_t WordEngine::peek(int pixel, unsigned low) {
   std::size_t inside = 0;
   const std::size_t tile = tile_of(pixel, inside);
   const Batch* waits = waiting_[tile] >= 0 ? &batches_[static_cast<std::size_t>(waiting_[tile])] : nullptr;
-  std::uint64_t word = 0;
-  for (unsigned bit = low; bit < std::min<std::size_t>(low + 32, bits_.memory.size()); ++bit)
-    word |= (bits_.memory[bit][static_cast<std::size_t>(pixel) / 64] >> (pixel % 64) & 1) << (bit - low);
+  std::uint64_t word = 0, known = 0;
   for (std::size_t k = 0; k < fields_.size(); ++k) {
     const FieldPlace& place = fields_[k].place;
     if (!overlap(place, {low, 32})) continue;
@@ -289,11 +287,13 @@ std::uint32_t WordEngine::peek(int pixel, unsigned low) {
     }
     const std::uint64_t mask = static_cast<std::uint64_t>(all_ones(place.bits));
     const std::uint64_t value = fields_[k].tiles[tile].values[inside];
-    if (place.low >= low)
-      word = (word & ~(mask << (place.low - low))) | value << (place.low - low);
-    else
-      word = (word & ~(mask >> (low - place.low))) | value >> (low - place.low);
+    const bool up = place.low >= low;
+    known |= up ? mask << (place.low - low) : mask >> (low - place.low);
+    word |= up ? value << (place.low - low) : value >> (low - place.low);
   }
+  for (unsigned bit = low; bit < std::min<std::size_t>(low + 32, bits_.memory.size()); ++bit)
+    if ((known >> (bit - low) & 1) == 0)
+      word |= (bits_.memory[bit][static_cast<std::size_t>(pixel) / 64] >> (pixel % 64) & 1) << (bit - low);
   return static_cast<std::uint32_t>(word);
 }
 
@@ -309,14 +309,17 @@ void WordEngine::to_bits() {
   bits_current_ = true;
 }
 
+/// Of a new field, which holds zeros.
 void WordEngine::load(Field& field) const {
-  for (int pixel = 0; pixel < spec_.pixels(); ++pixel) {
-    std::size_t inside = 0;
-    const std::size_t tile = tile_of(pixel, inside);
-    std::uint32_t value = 0;
-    for (unsigned b = 0; b < field.place.bits; ++b)
-      value |= static_cast<std::uint32_t>(bits_.memory[field.place.low + b][static_cast<std::size_t>(pixel) / 64] >> (pixel % 64) & 1) << b;
-    field.tiles[tile].values[inside] = value;
+  for (unsigned b = 0; b < field.place.bits; ++b) {
+    const Plane& plane = bits_.memory[field.place.low + b];
+    for (std::size_t word = 0; word < plane.size(); ++word) {
+      if (plane[word] == 0) continue;
+      std::size_t inside = 0;
+      const std::size_t first = tile_of(static_cast<int>(word) * 64, inside);
+      for (std::size_t p = 0; p < 64; ++p)
+        field.tiles[first + p / kTileSide].values[inside + p % kTileSide] |= static_cast<std::uint32_t>(plane[word] >> p & 1) << b;
+    }
   }
 }
 
