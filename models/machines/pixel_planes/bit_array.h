@@ -1,0 +1,20 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "models/machines/pixel_planes/pixel_planes_spec.h"
+#include "models/machines/pixel_planes/pixel_planes_state.h"
+#include "models/parts/igc/igc_isa.h"
+
+namespace dendro::pixel_planes {
+
+/// Applies the array words of one command to all pixels, one after another, with the tree's bits in closed form: what any
+/// micro-program does, at the cost of every clock. Streams must not spill into each other.
+void apply_words(const Spec& spec, const igc::Command& command, const std::vector<igc::ArrayWord>& words,
+                 ArrayState& state);
+
+/// Bit `bit` of A·x + B·y + C, as a stream of two's complement without end.
+bool expression_bit(const igc::Command& command, int x, int y, unsigned bit);
+
+}  // namespace dendro::pixel_planes
