@@ -1,11 +1,9 @@
 #include "models/parts/igc/clocked_array.h"
 
-#include "models/parts/igc/clocked_kernels.h"
-
 namespace dendro::igc {
 
 ClockedArray::ClockedArray(std::size_t words, unsigned memory_bits, unsigned ports)
-    : ports_(ports), memory_(memory_bits, Plane(words)), enable_(words), carry_(words), data_(words) {}
+    : ports_(ports), memory_(memory_bits, BitPlane(words)), enable_(words), carry_(words), data_(words) {}
 
 std::uint64_t* ClockedArray::plane(bool used, unsigned address) {
   return used && address < memory_.size() ? memory_[address].data() : nullptr;

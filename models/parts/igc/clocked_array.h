@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "models/parts/igc/igc_isa.h"
+#include "models/parts/igc/clocked_kernels.h"
 
 namespace dendro::igc {
 
@@ -26,13 +26,12 @@ class ClockedArray {
   std::uint64_t enabled() const;
 
  private:
-  using Plane = std::vector<std::uint64_t>;
-  static bool get(const Plane& plane, std::size_t leaf) { return plane[leaf / 64] >> leaf % 64 & 1; }
+  static bool get(const BitPlane& plane, std::size_t leaf) { return plane[leaf / 64] >> leaf % 64 & 1; }
   std::uint64_t* plane(bool used, unsigned address);
 
   unsigned ports_;
-  std::vector<Plane> memory_;
-  Plane enable_, carry_, data_;
+  std::vector<BitPlane> memory_;
+  BitPlane enable_, carry_, data_;
 };
 
 }  // namespace dendro::igc

@@ -29,14 +29,21 @@ HWY_ATTR void over(std::size_t words, const Step& step) {
 
 template <bool kCoefficient, bool kClear>
 HWY_ATTR void level_of(const LevelClock& l) {
-  over(l.words, [&](auto d, std::size_t i) HWY_ATTR {
-    const auto in = hn::LoadU(d, l.in + i);
-    const auto carry = kClear ? hn::Zero(d) : hn::LoadU(d, l.carry + i);
-    const auto half = hn::Xor(in, carry);
-    hn::StoreU(in, d, l.left + i);
-    hn::StoreU(kCoefficient ? hn::Not(half) : half, d, l.right + i);
-    hn::StoreU(kCoefficient ? hn::Or(in, carry) : hn::And(in, carry), d, l.carry + i);
-  });
+  const std::size_t n = l.row_words;
+  const Word* const from = l.in;
+  Word *const to = l.out, *const carries = l.carry;
+  for (std::size_t row = 0; row < l.rows; ++row) {
+    const Word* const in_row = from + row * n;
+    Word *const left = to + 2 * row * n, *const right = left + n, *const kept = carries + row * n;
+    over(n, [=](auto d, std::size_t i) HWY_ATTR {
+      const auto in = hn::LoadU(d, in_row + i);
+      const auto carry = kClear ? hn::Zero(d) : hn::LoadU(d, kept + i);
+      const auto half = hn::Xor(in, carry);
+      hn::StoreU(in, d, left + i);
+      hn::StoreU(kCoefficient ? hn::Not(half) : half, d, right + i);
+      hn::StoreU(kCoefficient ? hn::Or(in, carry) : hn::And(in, carry), d, kept + i);
+    });
+  }
 }
 
 HWY_ATTR void LevelStep(const LevelClock& l) {
@@ -56,11 +63,11 @@ struct Operands {
 
 template <class F>
 HWY_ATTR void map(Word* to, std::size_t n, const F& f) {
-  over(n, [&](auto d, std::size_t i) HWY_ATTR { hn::StoreU(f(d, i), d, to + i); });
+  over(n, [=](auto d, std::size_t i) HWY_ATTR { hn::StoreU(f(d, i), d, to + i); });
 }
 #define DENDRO_AT(plane) hn::LoadU(d, (plane) + i)
 #define DENDRO_MAP(to, expression)                 \
-  map(to, n, [&](auto d, std::size_t i) HWY_ATTR { \
+  map(to, n, [=](auto d, std::size_t i) HWY_ATTR { \
     (void)i;                                       \
     return expression;                             \
   })
@@ -134,9 +141,15 @@ HWY_ATTR void write_where(const Word* source, const Word* enable, Word* to, std:
   DENDRO_MAP(to, hn::IfVecThenElse(DENDRO_AT(enable), DENDRO_AT(source), DENDRO_AT(to)));
 }
 
+bool changes_enable(Function function) {
+  return function == Function::kSetEnable || function == Function::kAndCarry || function == Function::kAndNotCarry;
+}
+/// Nothing that a word does changes these.
+bool constant_in_a_clock(Operand x) { return x == Operand::kZero || x == Operand::kOne || x == Operand::kTree; }
+
 HWY_ATTR void block_of(const PixelClock& p, const ArrayWord& word, std::size_t first, std::size_t n) {
   alignas(64) static const Word zeros[kBlock] = {};
-  alignas(64) Word ones[kBlock], source[kBlock], written_a[kBlock], written_b[kBlock];
+  alignas(64) Word ones[kBlock], worked_out[kBlock], enable_before[kBlock];
   if (word.x == Operand::kOne || word.y == Operand::kOne) std::fill(ones, ones + n, ~Word{0});
   const auto plane = [&](const Word* whole) { return whole ? whole + first : zeros; };
   const auto operand = [&](Operand which) -> const Word* {
@@ -157,20 +170,21 @@ HWY_ATTR void block_of(const PixelClock& p, const ArrayWord& word, std::size_t f
   };
   const Operands o{operand(word.x),   operand(word.y), plane(p.tree), plane(p.read_a), p.enable + first,
                    p.carry + first, p.data + first};
-  // Every new value is worked out before any of the planes that it is made from changes.
-  if (p.write_a || p.write_b) source_of(word.source, o, source, n);
-  if (p.write_a) {
-    std::copy_n(p.write_a + first, n, written_a);
-    write_where(source, o.enable, written_a, n);
+  // Memory is written last, with source and E of before, so that all else still sees the memory of before.
+  const bool writes = p.write_a || p.write_b;
+  const Word *source = worked_out, *enable = o.enable;
+  if (word.source == Source::kTree) {
+    source = o.tree;
+  } else if (word.source == Source::kX && constant_in_a_clock(word.x)) {
+    source = o.x;
+  } else if (writes) {
+    source_of(word.source, o, worked_out, n);
   }
-  if (p.write_b) {
-    std::copy_n(p.write_b + first, n, written_b);
-    write_where(source, o.enable, written_b, n);
-  }
+  if (writes && changes_enable(word.function)) enable = std::copy_n(o.enable, n, enable_before) - n;
   function_of(word.function, o, p.enable + first, p.carry + first, n);
   data_of(word.data, o, p.data + first, n);
-  if (p.write_a) std::copy_n(written_a, n, p.write_a + first);
-  if (p.write_b) std::copy_n(written_b, n, p.write_b + first);
+  if (p.write_a) write_where(source, enable, p.write_a + first, n);
+  if (p.write_b) write_where(source, enable, p.write_b + first, n);
 }
 #undef DENDRO_AT
 #undef DENDRO_MAP

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 
-#include "models/parts/igc/clocked_kernels.h"
 #include "models/parts/igc/igc_isa.h"
 #include "sim/base/check.h"
 
@@ -44,56 +43,93 @@ TreeLines TreeFeed::clock() {
   return lines;
 }
 
-ClockedTree::ClockedTree(unsigned levels_x, unsigned levels_y, bool masked)
-    : levels_x_(levels_x), levels_y_(levels_y), masked_(masked) {
-  const unsigned levels = levels_x + levels_y;
-  DENDRO_CHECK(levels >= kWordLevels && levels < 32, "{} levels", levels);
-  for (unsigned l = 0; l <= levels; ++l) {
-    const std::size_t words = l < kWordLevels ? 1 : std::size_t{1} << (l - kWordLevels);
-    outputs_.emplace_back(words);
-    if (l < levels) carries_.emplace_back(words);
-  }
-  streams_.resize(levels);
-  clears_.resize(levels);
-}
+TreeTokens::TreeTokens(unsigned levels_x, unsigned levels_y, bool masked)
+    : levels_x_(levels_x),
+      masked_(masked),
+      streams_(levels_x + levels_y),
+      clears_(levels_x + levels_y),
+      bits_(levels_x + levels_y) {}
 
-void ClockedTree::clock(const TreeLines& lines) {
-  outputs_[0][0] = lines.c;
+const std::vector<LevelBits>& TreeTokens::clock(const TreeLines& lines) {
   streams_[0] = lines.c_stream;
   clears_[0] = lines.clear;
-  // From the leaves up, so that every level still sees its inputs of before this clock.
-  for (unsigned l = levels_x_ + levels_y_; l-- > 0;) {
+  // From the leaves up: a token is seen by its level before it moves on.
+  for (std::size_t l = bits_.size(); l-- > 0;) {
     const bool of_x = l < levels_x_;
     const bool same = streams_[l] == (of_x ? lines.a_stream : lines.b_stream);
-    const bool coefficient = (of_x ? lines.a : lines.b) && (same || !masked_);
-    if (l < kWordLevels) {
-      clock_small(l, coefficient, clears_[l]);
-    } else {
-      std::uint64_t* const out = outputs_[l + 1].data();
-      const std::size_t words = outputs_[l].size();
-      clock_level({outputs_[l].data(), out, out + words, carries_[l].data(), words, coefficient, clears_[l]});
-    }
+    bits_[l] = {(of_x ? lines.a : lines.b) && (same || !masked_), clears_[l]};
     if (l > 0) {
       streams_[l] = streams_[l - 1];
       clears_[l] = clears_[l - 1];
     }
   }
+  return bits_;
 }
 
-void ClockedTree::clock_small(unsigned level, bool coefficient, bool clear) {
-  const unsigned nodes = 1u << level;
-  const std::uint64_t mask = (std::uint64_t{1} << nodes) - 1;
-  const std::uint64_t in = outputs_[level][0], ones = coefficient ? mask : 0;
-  const std::uint64_t carry = clear ? 0 : carries_[level][0];
-  outputs_[level + 1][0] = in | (in ^ carry ^ ones) << nodes;
-  carries_[level][0] = (in & carry) | (in & ones) | (carry & ones);
+TreeOfX::TreeOfX(unsigned levels) {
+  DENDRO_CHECK(levels >= kWordLevels, "{} levels", levels);
+  for (unsigned l = 0; l <= levels; ++l) {
+    const std::size_t words = l < kWordLevels ? 1 : std::size_t{1} << (l - kWordLevels);
+    outputs_.emplace_back(words);
+    if (l < levels) carries_.emplace_back(words);
+  }
 }
 
-std::size_t ClockedTree::leaf_of(unsigned x, unsigned y) const {
-  std::size_t leaf = 0;
-  for (unsigned l = 0; l < levels_x_; ++l) leaf |= std::size_t{x >> (levels_x_ - 1 - l) & 1} << l;
-  for (unsigned l = 0; l < levels_y_; ++l) leaf |= std::size_t{y >> (levels_y_ - 1 - l) & 1} << (levels_x_ + l);
+void TreeOfX::clock(bool c, const LevelBits* bits) {
+  outputs_[0][0] = c;
+  // From the leaves up, so that every level still sees its inputs of before this clock.
+  for (std::size_t l = carries_.size(); l-- > 0;) {
+    const BitPlane& in = outputs_[l];
+    BitPlane &out = outputs_[l + 1], &kept = carries_[l];
+    const std::uint64_t coefficient = bits[l].coefficient ? ~std::uint64_t{0} : 0;
+    for (std::size_t w = 0; w < in.size(); ++w) {
+      const std::uint64_t carry = bits[l].clear ? 0 : kept[w];
+      std::uint64_t sum = in[w] ^ carry ^ coefficient;
+      kept[w] = (in[w] & carry) | ((in[w] | carry) & coefficient);
+      if (l < kWordLevels) {
+        const unsigned nodes = 1u << l;
+        sum &= (std::uint64_t{1} << nodes) - 1;
+        out[0] = in[0] | sum << nodes;
+      } else {
+        out[w] = in[w];
+        out[in.size() + w] = sum;
+      }
+    }
+  }
+}
+
+TreeOfY::TreeOfY(unsigned levels, std::size_t rows, std::size_t row_words) : rows_(rows), row_words_(row_words) {
+  for (unsigned l = 0; l < levels; ++l) {
+    carries_.emplace_back(row_words * rows << l);
+    outputs_.emplace_back(row_words * rows << (l + 1));
+  }
+}
+
+void TreeOfY::clock(const std::uint64_t* input, const LevelBits* bits) {
+  for (std::size_t l = carries_.size(); l-- > 0;) {
+    const std::uint64_t* const in = l == 0 ? input : outputs_[l - 1].data();
+    clock_level(
+        {in, outputs_[l].data(), carries_[l].data(), rows_ << l, row_words_, bits[l].coefficient, bits[l].clear});
+  }
+}
+
+std::size_t leaf_of(unsigned levels_x, unsigned x, unsigned y) {
+  std::size_t leaf = std::size_t{y} << levels_x;
+  for (unsigned l = 0; l < levels_x; ++l) leaf |= std::size_t{x >> (levels_x - 1 - l) & 1} << l;
   return leaf;
+}
+
+ClockedTree::ClockedTree(unsigned levels_x, unsigned levels_y, bool masked)
+    : levels_x_(levels_x),
+      tokens_(levels_x, levels_y, masked),
+      x_(levels_x),
+      y_(levels_y, 1, x_.row_words()),
+      words_(x_.row_words() << levels_y) {}
+
+void ClockedTree::clock(const TreeLines& lines) {
+  const std::vector<LevelBits>& bits = tokens_.clock(lines);
+  y_.clock(x_.row(), bits.data() + levels_x_);
+  x_.clock(lines.c, bits.data());
 }
 
 }  // namespace dendro::igc

@@ -38,7 +38,7 @@ std::uint64_t wrong_bits(const Rules& setup, const std::vector<Stream>& streams)
   const unsigned width = 1u << setup.levels_x, height = 1u << setup.levels_y, latency = setup.levels_x + setup.levels_y;
   std::vector<std::size_t> leaves;
   for (unsigned y = 0; y < height; ++y)
-    for (unsigned x = 0; x < width; ++x) leaves.push_back(tree.leaf_of(x, y));
+    for (unsigned x = 0; x < width; ++x) leaves.push_back(leaf_of(setup.levels_x, x, y));
 
   // What the leaves show in each clock: the stream and its bit, or nothing that is looked at.
   struct Expected {
