@@ -1,0 +1,80 @@
+#include "models/machines/pixel_planes/device.h"
+
+#include <cstring>
+
+#include "models/machines/pixel_planes/pixel_planes_map.h"
+#include "sim/base/error.h"
+
+namespace dendro::pixel_planes {
+namespace {
+
+std::int64_t coefficient(std::uint32_t word, unsigned fraction) {
+  float value = 0;
+  std::memcpy(&value, &word, sizeof value);
+  return igc::translate(value, fraction);
+}
+
+}  // namespace
+
+std::optional<igc::Command> CommandDecoder::add(std::uint32_t word) {
+  words_.push_back(word);
+  const igc::Header header = igc::unpack_header(words_[0]);
+  if (words_.size() < header.words()) return std::nullopt;
+  igc::Command command;
+  command.header = header;
+  std::size_t at = 1;
+  if (header.expression && !header.register_write) {
+    for (std::int64_t* to : {&command.a, &command.b, &command.c}) *to = coefficient(words_[at++], header.fraction);
+  }
+  if (header.constant && !header.register_write) command.constant = words_[at++];
+  if (header.long_constant && !header.register_write) command.constant |= static_cast<std::uint64_t>(words_[at++]) << 32;
+  words_.clear();
+  return command;
+}
+
+std::optional<Device::Done> Device::write(std::uint32_t address, std::uint32_t value) {
+  if (address < kControlStoreEnd) {
+    std::uint64_t& word = controller_.store[address / 2];
+    word = address % 2 == 0 ? (word & ~std::uint64_t{0xFFFFFFFF}) | value
+                            : (word & 0xFFFFFFFF) | static_cast<std::uint64_t>(value) << 32;
+    programs_.clear();
+  } else if (address == kVideoBase) {
+    video_.base = value & 255;
+  } else if (address == kVideoSize) {
+    video_.width = static_cast<int>(value & 0xFFFF), video_.height = static_cast<int>(value >> 16);
+  } else if (address == kFifo) {
+    if (const auto command = decoder_.add(value)) return carry_out(*command);
+  }
+  return std::nullopt;
+}
+
+Device::Done Device::carry_out(const igc::Command& command) {
+  if (command.header.register_write) {
+    controller_.registers[command.header.register_number] = static_cast<std::uint8_t>(command.header.value);
+    return {command, 1};
+  }
+  auto found = programs_.find(command.header.entry);
+  if (found == programs_.end())
+    found = programs_.emplace(command.header.entry, igc::program_at(controller_, command.header.entry)).first;
+  const auto gap = static_cast<unsigned>(spec_.tree.gap_clocks);
+  const std::uint64_t words = igc::count_words(found->second, command.header, controller_, gap);
+  if (words == 0)
+    throw UserError("the micro-program at word " + std::to_string(command.header.entry) + " sends nothing");
+  engine_.execute(found->second, command, controller_);
+  return {command, words};
+}
+
+Picture Device::picture() {
+  Picture picture;
+  picture.width = video_.width > 0 ? std::min(video_.width, spec_.array.width) : spec_.array.width;
+  picture.height = video_.height > 0 ? std::min(video_.height, spec_.array.height) : spec_.array.height;
+  picture.rgb.reserve(static_cast<std::size_t>(picture.width) * static_cast<std::size_t>(picture.height) * 3);
+  for (int y = 0; y < picture.height; ++y)
+    for (int x = 0; x < picture.width; ++x) {
+      const std::uint32_t colour = engine_.peek(y * spec_.array.width + x, video_.base);
+      for (int c = 0; c < 3; ++c) picture.rgb.push_back(static_cast<std::uint8_t>(colour >> (8 * c)));
+    }
+  return picture;
+}
+
+}  // namespace dendro::pixel_planes

@@ -1,0 +1,50 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "models/parts/igc/igc.h"
+
+namespace dendro::pixel_planes {
+
+/// What a whole micro-program does to the fields of a pixel, in word arithmetic. T is the expression without its
+/// fraction, floor(T / 2^fraction), a signed number of `bits` + guard bits.
+enum class MacroKind : std::uint8_t {
+  kFill,          ///< every fill: field := constant
+  kRaise,         ///< field 0 := max(field 0, min(T, all ones))
+  kLower,         ///< field 0 := min(field 0, max(T, 0))
+  kRaiseScratch,  ///< kRaise, and field 1 := low bits of T
+  kLowerScratch,  ///< kLower, and field 1 := low bits of T
+  kKill,          ///< field 0 := 0 where the expression, of fraction + guard bits, is negative
+  kCloseOpen,     ///< field 0 := 0 where it is all ones
+  kFinish,        ///< seen: field 0 < field 1 and field 0 < field 2; there field 2 := field 0; bit 0 of field 1 := seen
+  kMatchPaint,    ///< where bit 0 of field 1 is set and field 0 = T: field 2 := constant
+  kPaint,         ///< where bit 0 of field 1 is set: field 2 := constant
+  kRaiseIndex,    ///< kRaise, and where field 0 was below T: field 1 := constant
+  kPaintIndex     ///< where bit 0 of field 1 is set and field 0 = the constant's low bits: field 2 := those above
+};
+
+/// A field of the pixel as registers and counts of the controller say it.
+struct FieldPlace {
+  unsigned low = 0, bits = 0;
+  bool operator==(const FieldPlace& other) const { return low == other.low && bits == other.bits; }
+};
+
+/// One macro-operation with everything resolved.
+struct Macro {
+  MacroKind kind = MacroKind::kFill;
+  FieldPlace fields[3];
+  unsigned field_count = 0;
+  std::int64_t a = 0, b = 0, c = 0;  ///< of the expression
+  unsigned fraction = 0;
+  unsigned stream_bits = 0;  ///< the expression is taken modulo 2^stream_bits; 0: there is none
+  std::uint64_t constant = 0;
+};
+
+/// The macro-operations that a command comes to; nothing for programs that are none of them, word for word, and for
+/// sizes that word arithmetic does not hold.
+std::optional<std::vector<Macro>> recognise(const std::vector<igc::MicroWord>& program, const igc::Command& command,
+                                            const igc::ControllerState& controller);
+
+}  // namespace dendro::pixel_planes
