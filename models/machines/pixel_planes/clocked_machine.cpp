@@ -1,0 +1,92 @@
+#include <algorithm>
+
+#include "models/machines/pixel_planes/clocked.h"
+
+namespace dendro::pixel_planes {
+namespace {
+
+class ClockedMachine : public Machine {
+ public:
+  ClockedMachine(const Spec& spec, const MachineOptions& options) : spec_(spec) {
+    sc_core::sc_set_time_resolution(1, sc_core::SC_PS);
+    engine_ = std::make_unique<ClockedEngine>("pixel_planes", spec, options);
+  }
+
+  void run(const std::function<void(HostPort&)>& host_program) override { engine_->simulate(host_program); }
+  double clock_hz() const override { return 1e12 / static_cast<double>(spec_.tick_ps); }
+  std::int64_t cycles() const override { return engine_->clocks(); }
+  std::int64_t machine_cycles() const override {
+    return engine_->clocks() - static_cast<std::int64_t>(engine_->controller_counters().idle);
+  }
+  std::uint64_t instructions() const override { return engine_->controller_counters().busy; }
+  std::vector<Phase> phases() const override;
+  std::vector<UnitStats> units() const override;
+  std::vector<MarkEvent> marks() const override { return engine_->marks(); }
+  std::vector<std::string> elaborated() const override {
+    return {"pixel_planes.controller", "pixel_planes.array", "pixel_planes.host"};
+  }
+  bool time_dependent() const override { return false; }
+  Picture picture() const override;
+  std::uint32_t peek(std::uint32_t address, unsigned function) const override;
+
+ private:
+  Spec spec_;
+  std::unique_ptr<ClockedEngine> engine_;
+};
+
+std::vector<Phase> ClockedMachine::phases() const {
+  std::vector<Phase> phases;
+  const auto& named = engine_->host_phases();
+  const std::int64_t end = engine_->clocks();
+  const auto begin_of = [&](std::size_t i) { return i < named.size() ? named[i].from_ps / spec_.tick_ps : end; };
+  if (begin_of(0) > 0) phases.push_back({"host", begin_of(0), true});
+  for (std::size_t i = 0; i < named.size(); ++i) {
+    const std::int64_t clocks = begin_of(i + 1) - begin_of(i);
+    if (clocks > 0) phases.push_back({named[i].name, clocks, true});
+  }
+  return phases;
+}
+
+std::vector<UnitStats> ClockedMachine::units() const {
+  const auto total = static_cast<std::uint64_t>(engine_->clocks());
+  const ControllerCounters& c = engine_->controller_counters();
+  const std::uint64_t host_busy =
+      std::min(total, static_cast<std::uint64_t>(engine_->host_busy_ps() / spec_.tick_ps));
+  return {{"pixel_planes.controller",
+           {{"cycles", total}, {"busy", c.busy}, {"stall_refresh", c.stall_refresh}, {"stall_video", c.stall_video},
+            {"stall_translator", c.stall_translator}, {"stall_drain", c.stall_drain}, {"idle", c.idle}}},
+          {"pixel_planes.array", {{"cycles", total}, {"busy", c.busy}, {"idle", total - c.busy}}},
+          {"pixel_planes.host", {{"cycles", total}, {"busy", host_busy}, {"idle", total - host_busy}}}};
+}
+
+std::uint32_t ClockedMachine::peek(std::uint32_t address, unsigned function) const {
+  const auto width = static_cast<std::uint32_t>(spec_.array.width);
+  if (address >= static_cast<std::uint32_t>(spec_.pixels())) return 0;
+  std::uint32_t word = 0;
+  for (unsigned i = 0; i < 32 && function + i < static_cast<unsigned>(spec_.array.memory_bits); ++i)
+    word |= static_cast<std::uint32_t>(engine_->planes().memory(function + i, address % width, address / width)) << i;
+  return word;
+}
+
+Picture ClockedMachine::picture() const {
+  const VideoState& video = engine_->video();
+  Picture picture;
+  picture.width = video.width == 0 ? spec_.array.width : std::min(video.width, spec_.array.width);
+  picture.height = video.height == 0 ? spec_.array.height : std::min(video.height, spec_.array.height);
+  for (int y = 0; y < picture.height; ++y) {
+    for (int x = 0; x < picture.width; ++x) {
+      const std::uint32_t colour = peek(static_cast<std::uint32_t>(y * spec_.array.width + x), video.base);
+      for (unsigned channel = 0; channel < 3; ++channel)
+        picture.rgb.push_back(static_cast<std::uint8_t>(colour >> (8 * channel)));
+    }
+  }
+  return picture;
+}
+
+}  // namespace
+
+std::unique_ptr<Machine> make_clocked(const Spec& spec, const MachineOptions& options) {
+  return std::make_unique<ClockedMachine>(spec, options);
+}
+
+}  // namespace dendro::pixel_planes
