@@ -9,7 +9,7 @@
 namespace dendro::tools {
 namespace {
 
-/// Parses programs, loops and words; what a word's parts do is WordBuilder's.
+/// Parses programs, loops and words; what a word's parts do is IgcWordBuilder's.
 class IgcParser {
  public:
   IgcParser(std::string_view source, const std::string& file, const IgcOptions& options)
@@ -149,7 +149,7 @@ class IgcParser {
   }
 
   igc::MicroWord parse_word(const LoopPlace& place) {
-    WordBuilder builder(file_, options_, image_.registers, place, known_);
+    IgcWordBuilder builder(file_, options_, image_.registers, place, known_);
     for (;;) {
       at_ = builder.add_part(tokens_, at_);
       if (!now().is(",")) break;

@@ -20,7 +20,7 @@ bool is_reserved_word(std::string_view text) {
   return std::find(std::begin(kWords), std::end(kWords), text) != std::end(kWords);
 }
 
-WordBuilder::WordBuilder(const std::string& file, const IgcOptions& options,
+IgcWordBuilder::IgcWordBuilder(const std::string& file, const IgcOptions& options,
                          const std::map<std::string, unsigned>& registers, const LoopPlace& place,
                          KnownRegisters& known)
     : file_(file), options_(options), registers_(registers), place_(place), known_(known), set_(known) {
@@ -28,26 +28,26 @@ WordBuilder::WordBuilder(const std::string& file, const IgcOptions& options,
   word_.loop_number = static_cast<std::uint8_t>(place.number);
 }
 
-void WordBuilder::fail(const Token& token, const std::string& message) const {
+void IgcWordBuilder::fail(const Token& token, const std::string& message) const {
   throw SourceError(file_, token.line, token.column, message);
 }
 
-bool WordBuilder::take(std::string_view text) {
+bool IgcWordBuilder::take(std::string_view text) {
   if (!now().is(text)) return false;
   ++at_;
   return true;
 }
 
-void WordBuilder::expect(std::string_view text) {
+void IgcWordBuilder::expect(std::string_view text) {
   if (!take(text)) fail(now(), fmt::format("`{}` stands here", text));
 }
 
-unsigned WordBuilder::number(const char* what, unsigned most) {
+unsigned IgcWordBuilder::number(const char* what, unsigned most) {
   if (now().kind != Token::kNumber || now().value > most) fail(now(), fmt::format("{} is 0..{}", what, most));
   return static_cast<unsigned>((*tokens_)[at_++].value);
 }
 
-std::size_t WordBuilder::add_part(const std::vector<Token>& tokens, std::size_t at) {
+std::size_t IgcWordBuilder::add_part(const std::vector<Token>& tokens, std::size_t at) {
   tokens_ = &tokens, at_ = at;
   const Token start = now();
   if (take("idle")) return at_;
@@ -66,28 +66,28 @@ std::size_t WordBuilder::add_part(const std::vector<Token>& tokens, std::size_t 
   return at_;
 }
 
-void WordBuilder::use_known(const Token& token, bool known, const char* name) const {
+void IgcWordBuilder::use_known(const Token& token, bool known, const char* name) const {
   if (!known) fail(token, fmt::format("`{}` is used before the program sets it", name));
 }
 
-void WordBuilder::use_function(const Token& token, Function function) {
+void IgcWordBuilder::use_function(const Token& token, Function function) {
   if (function_)
     fail(token, "one word changes enable or carry, and only once: the function field is taken");
   function_ = word_.function = function;
 }
 
-void WordBuilder::use_x(const Token& token, Operand x) {
+void IgcWordBuilder::use_x(const Token& token, Operand x) {
   if (x_ && *x_ != x) fail(token, "operand x of this word is something else already");
   x_ = word_.x = x;
 }
 
-void WordBuilder::use_y(const Token& token, Operand y) {
+void IgcWordBuilder::use_y(const Token& token, Operand y) {
   if (y_ && *y_ != y) fail(token, "operand y of this word is something else already");
   y_ = word_.y = y;
 }
 
 // enable = 1 | enable & carry | enable & ~carry
-void WordBuilder::enable_part(const Token& start) {
+void IgcWordBuilder::enable_part(const Token& start) {
   expect("=");
   if (now().kind == Token::kNumber) {
     if (number("what enable is set to", 1) != 1) fail(start, "enable is set to 1 or ANDed with the carry");
@@ -105,7 +105,7 @@ void WordBuilder::enable_part(const Token& start) {
 }
 
 // carry = x | borrow(x, y) | majority(x, y) | same(x, y)
-void WordBuilder::carry_part(const Token& start) {
+void IgcWordBuilder::carry_part(const Token& start) {
   expect("=");
   const Token name = now();
   Function function = Function::kLoad;
@@ -130,7 +130,7 @@ void WordBuilder::carry_part(const Token& start) {
 }
 
 // data = 0 | tree | data | tree | FIELD
-void WordBuilder::data_part(const Token& start) {
+void IgcWordBuilder::data_part(const Token& start) {
   expect("=");
   if (data_op_) fail(start, "the data register is changed twice in one word");
   data_op_ = true;
@@ -155,7 +155,7 @@ void WordBuilder::data_part(const Token& start) {
 }
 
 // FIELD = tree | carry | sum(x, y) | x | x | data | x & ~data
-void WordBuilder::write_part(const Token& start) {
+void IgcWordBuilder::write_part(const Token& start) {
   if (start.kind != Token::kIdentifier) fail(start, "a word's part begins with a name");
   ++at_;
   const Operand port = port_of(start, place(start));
@@ -201,7 +201,7 @@ void WordBuilder::write_part(const Token& start) {
 }
 
 // NAME [ i | number | i + number ]
-WordBuilder::Place WordBuilder::place(const Token& name) {
+IgcWordBuilder::Place IgcWordBuilder::place(const Token& name) {
   Place out;
   const auto found = registers_.find(name.text);
   if (name.kind != Token::kIdentifier || found == registers_.end())
@@ -220,7 +220,7 @@ WordBuilder::Place WordBuilder::place(const Token& name) {
   return out;
 }
 
-void WordBuilder::check_memory(const Token& name, const Place& at) const {
+void IgcWordBuilder::check_memory(const Token& name, const Place& at) const {
   const auto base = options_.registers.find(name.text);
   if (base == options_.registers.end() || (at.indexed && !place_.turns)) return;
   if (at.indexed && *place_.turns == 0) return;
@@ -230,7 +230,7 @@ void WordBuilder::check_memory(const Token& name, const Place& at) const {
                            options_.memory_bits - 1));
 }
 
-Operand WordBuilder::port_of(const Token& token, const Place& at) {
+Operand IgcWordBuilder::port_of(const Token& token, const Place& at) {
   auto found = std::find(ports_.begin(), ports_.end(), at);
   if (found == ports_.end()) {
     if (static_cast<int>(ports_.size()) >= options_.ports)
@@ -247,7 +247,7 @@ Operand WordBuilder::port_of(const Token& token, const Place& at) {
   return found == ports_.begin() ? Operand::kPortA : Operand::kPortB;
 }
 
-Operand WordBuilder::operand() {
+Operand IgcWordBuilder::operand() {
   const Token token = now();
   if (token.kind == Token::kNumber) return number("an operand", 1) == 0 ? Operand::kZero : Operand::kOne;
   ++at_;
@@ -276,7 +276,7 @@ Operand WordBuilder::operand() {
   return port;
 }
 
-igc::MicroWord WordBuilder::finish() {
+igc::MicroWord IgcWordBuilder::finish() {
   known_ = set_;
   return word_;
 }

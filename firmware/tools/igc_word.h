@@ -29,9 +29,9 @@ struct LoopPlace {
 bool is_reserved_word(std::string_view text);
 
 /// Gathers the parts of one word and finds those that exclude each other. All members throw SourceError.
-class WordBuilder {
+class IgcWordBuilder {
  public:
-  WordBuilder(const std::string& file, const IgcOptions& options, const std::map<std::string, unsigned>& registers,
+  IgcWordBuilder(const std::string& file, const IgcOptions& options, const std::map<std::string, unsigned>& registers,
               const LoopPlace& place, KnownRegisters& known);
 
   /// Reads one part from tokens[at]; returns the index behind it.

@@ -1,11 +1,12 @@
 #include "sim/app/machines.h"
 
+#include "models/machines/pixel_planes/pixel_planes.h"
 #include "models/machines/rds3000/rds3000.h"
 
 namespace dendro::app {
 
 const std::vector<MachineType>& machines() {
-  static const std::vector<MachineType> list = {rds3000::rds3000_type()};
+  static const std::vector<MachineType> list = {rds3000::rds3000_type(), pixel_planes::pixel_planes_type()};
   return list;
 }
 

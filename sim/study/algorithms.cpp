@@ -3,7 +3,9 @@
 #include <algorithm>
 
 #include "firmware/half_space/job.h"
+#include "firmware/half_space/planes_job.h"
 #include "firmware/tools/assembler.h"
+#include "firmware/tools/igc_assembler.h"
 #include "firmware/tools/ucode.h"
 #include "sim/base/check.h"
 #include "sim/base/embedded.h"
@@ -107,8 +109,47 @@ half_space::ProgramImage program_for(const Source& source, const config::Paramet
   return image;
 }
 
+constexpr const char* kPixelPlanes = "pixel-planes";
+constexpr const char* kPlanesSources[] = {"firmware/half_space/pixel_planes/half_space.igc",
+                                          "firmware/half_space/pixel_planes/two_ports.igc"};
+
+/// Only the programs of half_space.igc run with one port.
+lib::IgcPrograms planes_programs(const half_space::ArraySite& site, const half_space::PixelLayout& layout) {
+  tools::IgcOptions options;
+  options.ports = site.ports, options.memory_bits = site.memory_bits;
+  options.registers = layout.registers();
+  if (layout.variant != half_space::StreamVariant::kScratch) options.registers.erase("scratch");
+  if (layout.colouring != half_space::Colouring::kIndex) options.registers.erase("index");
+  lib::IgcPrograms all;
+  for (int k = 0; k < site.ports; ++k) {
+    const std::string* text = base::embedded_file(kPlanesSources[k]);
+    DENDRO_CHECK(text != nullptr, "{}", kPlanesSources[k]);
+    const tools::IgcImage image = tools::assemble_igc(*text, kPlanesSources[k], options);
+    lib::IgcPrograms programs;
+    programs.words = image.words, programs.registers = image.registers;
+    for (const auto& [name, program] : image.programs)
+      programs.entries[name] = {program.entry, program.phase, program.uses_tree};
+    all.append(programs);
+  }
+  std::string bytes;
+  for (const std::uint64_t word : all.words) bytes += std::to_string(word) + "\n";
+  all.name = kPlanesSources[site.ports - 1];
+  all.sha256 = base::sha256(bytes);
+  return all;
+}
+
+std::unique_ptr<Job> make_planes(const scene::Scene& scene, const config::ParameterSet& parameters) {
+  half_space::ArraySite site;
+  site.width = static_cast<int>(integer_of(parameters, "array.width"));
+  site.height = static_cast<int>(integer_of(parameters, "array.height"));
+  site.memory_bits = static_cast<int>(integer_of(parameters, "array.memory_bits"));
+  site.ports = static_cast<int>(integer_of(parameters, "array.ports"));
+  return half_space::make_planes_job(scene, planes_programs(site, half_space::choose_layout(scene, site)), site);
+}
+
 std::unique_ptr<Job> make_half_space(const scene::Scene& scene, const MachineType& type,
                                      const config::ParameterSet& parameters) {
+  if (type.name == kPixelPlanes) return make_planes(scene, parameters);
   DENDRO_CHECK(type.name == kHalfSpace.machine, "{}", type.name);
   half_space::Site site;
   site.scratch_words = static_cast<std::uint32_t>(integer_of(parameters, "processor.scratch_words"));
@@ -125,12 +166,12 @@ const std::vector<Algorithm>& algorithms() {
   static const std::vector<Algorithm> list = {
       {"half_space",
        "trees as intersections of half-spaces, two depth registers a pixel (FG86)",
-       {"rds3000"},
+       {"rds3000", "pixel-planes"},
        "firmware/half_space",
        make_half_space,
        {"planes", "plane_source", "directions", "unbounded", "starting_box", "boxing", "depth_bits",
         "depth_margin", "depth_range", "steep", "diffuse", "colour", "background", "registers", "near_shade", "far_shade",
-        "bands", "relief"}},
+        "bands", "relief", "fraction_bits", "guard_bits", "edge_fraction_bits", "variant", "colouring"}},
   };
   return list;
 }

@@ -55,9 +55,9 @@ Device::Done Device::carry_out(const igc::Command& command) {
   }
   auto found = programs_.find(command.header.entry);
   if (found == programs_.end())
-    found = programs_.emplace(command.header.entry, igc::program_at(controller_, command.header.entry)).first;
+    found = programs_.emplace(command.header.entry, MacroProgram(igc::program_at(controller_, command.header.entry))).first;
   const auto gap = static_cast<unsigned>(spec_.tree.gap_clocks);
-  const std::uint64_t words = igc::count_words(found->second, command.header, controller_, gap);
+  const std::uint64_t words = igc::count_words(found->second.words(), command.header, controller_, gap);
   if (words == 0)
     throw UserError("the micro-program at word " + std::to_string(command.header.entry) + " sends nothing");
   engine_.execute(found->second, command, controller_);

@@ -52,7 +52,7 @@ class Device {
   CommandDecoder decoder_;
   WordEngine engine_;
   VideoState video_;
-  std::map<unsigned, std::vector<igc::MicroWord>> programs_;  ///< by entry, until the store is written
+  std::map<unsigned, MacroProgram> programs_;  ///< by entry, until the store is written
 };
 
 }  // namespace dendro::pixel_planes

@@ -31,8 +31,7 @@ class Matcher {
     return true;
   }
 
-  bool bound(unsigned role) const { return bound_[role] >= 0; }
-  unsigned register_of(unsigned role) const { return static_cast<unsigned>(bound_[role]); }
+  const std::array<int, kRoles>& bound() const { return bound_; }
 
  private:
   bool bind(std::uint8_t& role, std::uint8_t number) {
@@ -43,7 +42,7 @@ class Matcher {
     return true;
   }
 
-  int bound_[kRoles] = {-1, -1, -1, -1};
+  std::array<int, kRoles> bound_ = {-1, -1, -1, -1};
 };
 
 bool fits(const FieldPlace& field) { return field.bits >= 1 && field.bits <= kMostBits && field.low + field.bits <= 256; }
@@ -62,16 +61,46 @@ bool holds_expression(const igc::Command& command) {
   return command.header.guard >= 1 && small(command.a) && small(command.b) && small(command.c);
 }
 
-std::optional<Macro> from_pattern(const Pattern& pattern, const Matcher& matcher, const igc::Command& command,
-                                  const igc::ControllerState& controller) {
+bool is_fill(const MicroWord& word) {
+  MicroWord plain;
+  plain.write_a = true, plain.indexed_a = true, plain.register_a = word.register_a, plain.offset_a = word.offset_a;
+  plain.loop = word.loop, plain.loop_number = word.loop_number, plain.loop_end = true, plain.end = word.end;
+  plain.x = word.x, plain.constant_offset = word.constant_offset;
+  const bool constant = word.x == igc::Operand::kZero || word.x == igc::Operand::kOne || word.x == igc::Operand::kConstant;
+  return constant && (word.loop == LoopCount::kRegister || word.loop == LoopCount::kNumber) && word == plain;
+}
+
+/// `enable = 1` and then loops of one word that writes a constant.
+bool is_fills(const std::vector<MicroWord>& words) {
+  MicroWord first;
+  first.function = igc::Function::kSetEnable;
+  return words.size() >= 2 && words[0] == first && std::all_of(words.begin() + 1, words.end(), is_fill);
+}
+
+}  // namespace
+
+MacroProgram::MacroProgram(std::vector<MicroWord> words) : words_(std::move(words)), fills_only_(is_fills(words_)) {
+  for (const Pattern& pattern : patterns()) {
+    Matcher matcher;
+    if (!matcher.match(pattern, words_)) continue;
+    pattern_ = &pattern;
+    bound_ = matcher.bound();
+    return;
+  }
+}
+
+std::optional<Macro> MacroProgram::from_pattern(const igc::Command& command,
+                                                const igc::ControllerState& controller) const {
+  const Pattern& pattern = *pattern_;
+  const auto value = [&](unsigned role) { return controller.registers[static_cast<std::size_t>(bound_[role])]; };
   Macro macro;
   macro.kind = pattern.kind;
   macro.field_count = static_cast<unsigned>(pattern.bits.size());
-  const unsigned bits = matcher.bound(kBits) ? controller.registers[matcher.register_of(kBits)] : 0;
+  const unsigned bits = bound_[kBits] >= 0 ? value(kBits) : 0;
   for (unsigned k = 0; k < macro.field_count; ++k) {
     const unsigned own = pattern.bits[k];
     if (own == kNone) continue;
-    macro.fields[k] = {controller.registers[matcher.register_of(kField0 + k)], own == 0 ? bits : own};
+    macro.fields[k] = {value(kField0 + k), own == 0 ? bits : own};
     if (!fits(macro.fields[k])) return std::nullopt;
   }
   if (!disjoint(macro)) return std::nullopt;
@@ -86,25 +115,11 @@ std::optional<Macro> from_pattern(const Pattern& pattern, const Matcher& matcher
   return macro;
 }
 
-bool is_fill(const MicroWord& word) {
-  MicroWord plain;
-  plain.write_a = true, plain.indexed_a = true, plain.register_a = word.register_a, plain.offset_a = word.offset_a;
-  plain.loop = word.loop, plain.loop_number = word.loop_number, plain.loop_end = true, plain.end = word.end;
-  plain.x = word.x, plain.constant_offset = word.constant_offset;
-  const bool constant = word.x == igc::Operand::kZero || word.x == igc::Operand::kOne || word.x == igc::Operand::kConstant;
-  return constant && (word.loop == LoopCount::kRegister || word.loop == LoopCount::kNumber) && word == plain;
-}
-
-/// `enable = 1` and then loops of one word that writes a constant.
-std::optional<std::vector<Macro>> recognise_fills(const std::vector<MicroWord>& program, const igc::Command& command,
-                                                  const igc::ControllerState& controller) {
-  MicroWord first;
-  first.function = igc::Function::kSetEnable;
-  if (program.size() < 2 || !(program[0] == first)) return std::nullopt;
+std::optional<std::vector<Macro>> MacroProgram::fills(const igc::Command& command,
+                                                      const igc::ControllerState& controller) const {
   std::vector<Macro> fills;
-  for (std::size_t k = 1; k < program.size(); ++k) {
-    const MicroWord& word = program[k];
-    if (!is_fill(word)) return std::nullopt;
+  for (std::size_t k = 1; k < words_.size(); ++k) {
+    const MicroWord& word = words_[k];
     Macro macro;
     macro.field_count = 1;
     const unsigned bits = igc::loop_turns(word, command.header, controller, 0);
@@ -117,19 +132,13 @@ std::optional<std::vector<Macro>> recognise_fills(const std::vector<MicroWord>& 
   return fills;
 }
 
-}  // namespace
-
-std::optional<std::vector<Macro>> recognise(const std::vector<MicroWord>& program, const igc::Command& command,
-                                            const igc::ControllerState& controller) {
-  if (auto fills = recognise_fills(program, command, controller)) return fills;
-  for (const Pattern& pattern : patterns()) {
-    Matcher matcher;
-    if (!matcher.match(pattern, program)) continue;
-    const std::optional<Macro> macro = from_pattern(pattern, matcher, command, controller);
-    if (!macro) return std::nullopt;
-    return std::vector<Macro>{*macro};
-  }
-  return std::nullopt;
+std::optional<std::vector<Macro>> MacroProgram::macros(const igc::Command& command,
+                                                       const igc::ControllerState& controller) const {
+  if (fills_only_) return fills(command, controller);
+  if (pattern_ == nullptr) return std::nullopt;
+  const std::optional<Macro> macro = from_pattern(command, controller);
+  if (!macro) return std::nullopt;
+  return std::vector<Macro>{*macro};
 }
 
 }  // namespace dendro::pixel_planes

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <vector>
@@ -42,9 +43,27 @@ struct Macro {
   std::uint64_t constant = 0;
 };
 
-/// The macro-operations that a command comes to; nothing for programs that are none of them, word for word, and for
-/// sizes that word arithmetic does not hold.
-std::optional<std::vector<Macro>> recognise(const std::vector<igc::MicroWord>& program, const igc::Command& command,
-                                            const igc::ControllerState& controller);
+struct Pattern;
+
+/// A micro-program as word arithmetic sees it.
+class MacroProgram {
+ public:
+  explicit MacroProgram(std::vector<igc::MicroWord> words);
+
+  /// The macro-operations that a command comes to; nothing for programs that are none of them, word for word, and for
+  /// sizes that word arithmetic does not hold.
+  std::optional<std::vector<Macro>> macros(const igc::Command& command, const igc::ControllerState& controller) const;
+
+  const std::vector<igc::MicroWord>& words() const { return words_; }
+
+ private:
+  std::optional<Macro> from_pattern(const igc::Command& command, const igc::ControllerState& controller) const;
+  std::optional<std::vector<Macro>> fills(const igc::Command& command, const igc::ControllerState& controller) const;
+
+  std::vector<igc::MicroWord> words_;
+  const Pattern* pattern_ = nullptr;
+  std::array<int, 4> bound_{};  ///< registers by the pattern's roles, -1: none
+  bool fills_only_ = false;
+};
 
 }  // namespace dendro::pixel_planes

@@ -48,7 +48,7 @@ Spec resolve(const config::ParameterSet& parameters) {
   spec.tree.masked = reader.boolean("tree.masked");
   spec.tree.gap_clocks = static_cast<int>(reader.integer("tree.gap_clocks", 0, 63));
   spec.setup_clocks = static_cast<int>(reader.integer("translator.setup_clocks", 0, 1000));
-  spec.fifo_words = static_cast<int>(reader.integer("fifo.depth_words", 1, 1 << 20));
+  spec.fifo_words = static_cast<int>(reader.integer("fifo.depth_words", 8, 1 << 20));
   spec.host.word_ps = ps(reader.real("host.word_ns", 0.1, 1e9), 1e3);
   spec.host.flop_ps = ps(1.0 / reader.real("host.flops_m_s", 1e-3, 1e6), 1e6);
   spec.host.instruction_ps = ps(1.0 / reader.real("host.instructions_m_s", 1e-3, 1e6), 1e6);

@@ -12,28 +12,11 @@ namespace hn = hwy::HWY_NAMESPACE;
 using D = hn::CappedTag<std::int32_t, kTileSide>;
 using V = hn::Vec<D>;
 
-/// T of every pixel of a tile, limited to -1 .. most + 1; `low`: its low bits as stored, if asked for.
+/// T of every pixel of a tile, limited to -1 .. most + 1, and its low bits as stored.
 struct Depths {
   alignas(64) std::int32_t z[kTilePixels];
   alignas(64) std::int32_t low[kTilePixels];
 };
-
-HWY_ATTR void narrow_depths(const TileOp& op, bool low, Depths& out) {
-  const D d;
-  const int lanes = static_cast<int>(hn::Lanes(d));
-  const V before = hn::Set(d, -1), beyond = hn::Set(d, op.most + 1), mask = hn::Set(d, op.most);
-  const V step = hn::Set(d, static_cast<std::int32_t>(op.b));
-  for (int x = 0; x < kTileSide; x += lanes) {
-    V t = hn::Add(hn::Set(d, static_cast<std::int32_t>(op.c)),
-                  hn::Mul(hn::Set(d, static_cast<std::int32_t>(op.a)), hn::Iota(d, x)));
-    for (int y = 0; y < kTileSide; ++y) {
-      const V whole = hn::ShiftRightSame(t, op.fraction);
-      hn::Store(hn::Min(hn::Max(whole, before), beyond), d, out.z + y * kTileSide + x);
-      if (low) hn::Store(hn::And(whole, mask), d, out.low + y * kTileSide + x);
-      t = hn::Add(t, step);
-    }
-  }
-}
 
 void wide_depths(const TileOp& op, Depths& out) {
   const int up = 64 - op.stream_bits;
@@ -49,11 +32,30 @@ void wide_depths(const TileOp& op, Depths& out) {
     }
 }
 
-/// Calls `change(position, z)` for every vector of the tile.
+/// Calls `change(position, z, low)` for every vector of the tile.
 template <class Change>
-HWY_ATTR HWY_INLINE void each(const Depths& depths, const Change& change) {
+HWY_ATTR HWY_INLINE void each(const TileOp& op, Depths& depths, const Change& change) {
   const D d;
-  for (std::size_t at = 0; at < kTilePixels; at += hn::Lanes(d)) change(at, hn::Load(d, depths.z + at));
+  const std::size_t lanes = hn::Lanes(d);
+  if (op.stream_bits == 0) {
+    for (std::size_t at = 0; at < kTilePixels; at += lanes) change(at, hn::Zero(d), hn::Zero(d));
+  } else if (op.narrow) {
+    const V before = hn::Set(d, -1), beyond = hn::Set(d, op.most + 1), mask = hn::Set(d, op.most);
+    const V step = hn::Set(d, static_cast<std::int32_t>(op.b));
+    for (std::size_t x = 0; x < kTileSide; x += lanes) {
+      V t = hn::Add(hn::Set(d, static_cast<std::int32_t>(op.c)),
+                    hn::Mul(hn::Set(d, static_cast<std::int32_t>(op.a)), hn::Iota(d, static_cast<std::int32_t>(x))));
+      for (std::size_t at = x; at < kTilePixels; at += kTileSide) {
+        const V whole = hn::ShiftRightSame(t, op.fraction);
+        change(at, hn::Min(hn::Max(whole, before), beyond), hn::And(whole, mask));
+        t = hn::Add(t, step);
+      }
+    }
+  } else {
+    wide_depths(op, depths);
+    for (std::size_t at = 0; at < kTilePixels; at += lanes)
+      change(at, hn::Load(d, depths.z + at), hn::Load(d, depths.low + at));
+  }
 }
 
 HWY_ATTR HWY_INLINE V load(const std::uint32_t* field, std::size_t at) {
@@ -73,35 +75,33 @@ HWY_ATTR void run_op(const TileOp& op, Depths& t) {
   const D d;
   const V zero = hn::Zero(d), one = hn::Set(d, 1), most = hn::Set(d, op.most);
   std::uint32_t *const f0 = op.field[0], *const f1 = op.field[1], *const f2 = op.field[2];
-  if (op.stream_bits > 0) {
-    const bool low = op.kind == MacroKind::kRaiseScratch || op.kind == MacroKind::kLowerScratch;
-    op.narrow ? narrow_depths(op, low, t) : wide_depths(op, t);
-    if (low)
-      for (std::size_t at = 0; at < kTilePixels; at += hn::Lanes(d)) store(hn::Load(d, t.low + at), f1, at);
-  }
   switch (op.kind) {
     case MacroKind::kFill:
-      each(t, [&](std::size_t at, V) HWY_ATTR { store(hn::Set(d, static_cast<std::int32_t>(op.constant)), f0, at); });
+      each(op, t, [&](std::size_t at, V, V) HWY_ATTR { store(hn::Set(d, static_cast<std::int32_t>(op.constant)), f0, at); });
       break;
-    case MacroKind::kRaise:
     case MacroKind::kRaiseScratch:
-      each(t, [&](std::size_t at, V z) HWY_ATTR { store(hn::Max(load(f0, at), hn::Min(z, most)), f0, at); });
+      each(op, t, [&](std::size_t at, V, V low) HWY_ATTR { store(low, f1, at); });
+      [[fallthrough]];
+    case MacroKind::kRaise:
+      each(op, t, [&](std::size_t at, V z, V) HWY_ATTR { store(hn::Max(load(f0, at), hn::Min(z, most)), f0, at); });
       break;
-    case MacroKind::kLower:
     case MacroKind::kLowerScratch:
-      each(t, [&](std::size_t at, V z) HWY_ATTR { store(hn::Min(load(f0, at), hn::Max(z, zero)), f0, at); });
+      each(op, t, [&](std::size_t at, V, V low) HWY_ATTR { store(low, f1, at); });
+      [[fallthrough]];
+    case MacroKind::kLower:
+      each(op, t, [&](std::size_t at, V z, V) HWY_ATTR { store(hn::Min(load(f0, at), hn::Max(z, zero)), f0, at); });
       break;
     case MacroKind::kKill:
-      each(t, [&](std::size_t at, V z) HWY_ATTR { store(hn::IfThenZeroElse(hn::Lt(z, zero), load(f0, at)), f0, at); });
+      each(op, t, [&](std::size_t at, V z, V) HWY_ATTR { store(hn::IfThenZeroElse(hn::Lt(z, zero), load(f0, at)), f0, at); });
       break;
     case MacroKind::kCloseOpen:
-      each(t, [&](std::size_t at, V) HWY_ATTR {
+      each(op, t, [&](std::size_t at, V, V) HWY_ATTR {
         const V back = load(f0, at);
         store(hn::IfThenZeroElse(hn::Eq(back, most), back), f0, at);
       });
       break;
     case MacroKind::kFinish:
-      each(t, [&](std::size_t at, V) HWY_ATTR {
+      each(op, t, [&](std::size_t at, V, V) HWY_ATTR {
         const V front = load(f0, at), back = load(f1, at), nearest = load(f2, at);
         const auto seen = hn::And(hn::Lt(front, back), hn::Lt(front, nearest));
         store(hn::IfThenElse(seen, front, nearest), f2, at);
@@ -109,22 +109,22 @@ HWY_ATTR void run_op(const TileOp& op, Depths& t) {
       });
       break;
     case MacroKind::kMatchPaint:
-      each(t, [&](std::size_t at, V z) HWY_ATTR {
+      each(op, t, [&](std::size_t at, V z, V) HWY_ATTR {
         store_where(hn::And(flagged(f1, at), hn::Eq(z, load(f0, at))), op.constant, f2, at);
       });
       break;
     case MacroKind::kPaint:
-      each(t, [&](std::size_t at, V) HWY_ATTR { store_where(flagged(f1, at), op.constant, f2, at); });
+      each(op, t, [&](std::size_t at, V, V) HWY_ATTR { store_where(flagged(f1, at), op.constant, f2, at); });
       break;
     case MacroKind::kRaiseIndex:
-      each(t, [&](std::size_t at, V z) HWY_ATTR {
+      each(op, t, [&](std::size_t at, V z, V) HWY_ATTR {
         const V front = load(f0, at);
         store_where(hn::Gt(z, front), op.constant, f1, at);
         store(hn::Max(front, hn::Min(z, most)), f0, at);
       });
       break;
     case MacroKind::kPaintIndex:
-      each(t, [&](std::size_t at, V) HWY_ATTR {
+      each(op, t, [&](std::size_t at, V, V) HWY_ATTR {
         const V match = hn::Set(d, static_cast<std::int32_t>(op.match));
         store_where(hn::And(flagged(f1, at), hn::Eq(match, load(f0, at))), op.constant, f2, at);
       });

@@ -10,10 +10,15 @@ namespace dendro::pixel_planes {
 constexpr int kTileSide = 16;
 constexpr int kTilePixels = kTileSide * kTileSide;
 
-/// A macro-operation on one tile. A field holds a number a pixel, 256 of them, row by row.
+/// A field of one tile: a number a pixel, row by row. Aligned for the widest vectors.
+struct alignas(64) TileField {
+  std::uint32_t values[kTilePixels] = {};
+};
+
+/// A macro-operation on one tile.
 struct TileOp {
   MacroKind kind;
-  std::uint32_t* field[3];  ///< of the tile; those that the kind does not have are not looked at
+  std::uint32_t* field[3];  ///< values of TileFields; those that the kind does not have are not looked at
   std::int32_t most;        ///< all ones of field 0
   std::int64_t a, b, c;     ///< the expression, c at the tile's first pixel
   int fraction, stream_bits;

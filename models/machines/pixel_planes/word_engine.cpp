@@ -34,9 +34,9 @@ WordEngine::WordEngine(const Spec& spec, bool lazy)
   batches_.emplace_back();
 }
 
-void WordEngine::execute(const std::vector<igc::MicroWord>& program, const igc::Command& command,
+void WordEngine::execute(const MacroProgram& program, const igc::Command& command,
                          const igc::ControllerState& controller) {
-  const auto macros = recognise(program, command, controller);
+  const auto macros = program.macros(command, controller);
   bool known = macros.has_value();
   if (known)
     for (const Macro& macro : *macros)
@@ -44,12 +44,13 @@ void WordEngine::execute(const std::vector<igc::MicroWord>& program, const igc::
         known = known && macro.fields[k].low + macro.fields[k].bits <= bits_.memory.size();
   if (!known) {
     to_bits();
-    apply_words(spec_, command, igc::expand(program, command, controller, static_cast<unsigned>(spec_.tree.gap_clocks)),
+    apply_words(spec_, command, igc::expand(program.words(), command, controller, static_cast<unsigned>(spec_.tree.gap_clocks)),
                 bits_);
     fields_.clear();
     ++counters_.bitwise_commands;
     return;
   }
+  if (macros->front().kind == MacroKind::kFill) flush();  // fills begin a batch
   for (const Macro& macro : *macros) {
     DENDRO_CHECK(add(macro), "field {}", macro.fields[0].low);
     counters_.pixel_operations += static_cast<std::uint64_t>(spec_.pixels());
@@ -67,18 +68,15 @@ int WordEngine::field_of(const FieldPlace& place, bool flag) {
     to_bits();
     fields_.clear();
   }
-  fields_.push_back({place, std::vector<std::uint32_t>(static_cast<std::size_t>(spec_.pixels()))});
+  fields_.push_back({place, std::vector<TileField>(waiting_.size())});
   load(fields_.back());
   return static_cast<int>(fields_.size()) - 1;
 }
 
-/// A fill behind other operations begins a new batch.
 bool WordEngine::add(const Macro& macro) {
   Op op;
   op.macro = macro;
   const bool fill = macro.kind == MacroKind::kFill;
-  const std::vector<Op>& open = batches_.back().ops;
-  if (fill && !open.empty() && open.back().macro.kind != MacroKind::kFill) flush();
   for (bool again = true; again;) {
     again = false;
     for (unsigned k = 0; k < macro.field_count; ++k) {
@@ -225,7 +223,7 @@ void WordEngine::run(const Batch& batch, int tile) {
     out.kind = macro.kind;
     for (int k = 0; k < 3; ++k)
       if (op.field[k] >= 0)
-        out.field[k] = fields_[static_cast<std::size_t>(op.field[k])].values.data() + static_cast<std::size_t>(tile) * kTilePixels;
+        out.field[k] = fields_[static_cast<std::size_t>(op.field[k])].tiles[static_cast<std::size_t>(tile)].values;
     out.most = static_cast<std::int32_t>(all_ones(std::max(1u, macro.fields[0].bits)));
     out.constant = static_cast<std::uint32_t>(macro.constant);
     if (macro.kind == MacroKind::kPaintIndex) {
@@ -277,9 +275,7 @@ std::uint32_t WordEngine::peek(int pixel, unsigned low) {
   std::size_t inside = 0;
   const std::size_t tile = tile_of(pixel, inside);
   const Batch* waits = waiting_[tile] >= 0 ? &batches_[static_cast<std::size_t>(waiting_[tile])] : nullptr;
-  std::uint64_t word = 0;
-  for (unsigned bit = low; bit < std::min<std::size_t>(low + 32, bits_.memory.size()); ++bit)
-    word |= (bits_.memory[bit][static_cast<std::size_t>(pixel) / 64] >> (pixel % 64) & 1) << (bit - low);
+  std::uint64_t word = 0, known = 0;
   for (std::size_t k = 0; k < fields_.size(); ++k) {
     const FieldPlace& place = fields_[k].place;
     if (!overlap(place, {low, 32})) continue;
@@ -288,12 +284,14 @@ std::uint32_t WordEngine::peek(int pixel, unsigned low) {
       waits = nullptr;
     }
     const std::uint64_t mask = static_cast<std::uint64_t>(all_ones(place.bits));
-    const std::uint64_t value = fields_[k].values[tile * kTilePixels + inside];
-    if (place.low >= low)
-      word = (word & ~(mask << (place.low - low))) | value << (place.low - low);
-    else
-      word = (word & ~(mask >> (low - place.low))) | value >> (low - place.low);
+    const std::uint64_t value = fields_[k].tiles[tile].values[inside];
+    const bool up = place.low >= low;
+    known |= up ? mask << (place.low - low) : mask >> (low - place.low);
+    word |= up ? value << (place.low - low) : value >> (low - place.low);
   }
+  for (unsigned bit = low; bit < std::min<std::size_t>(low + 32, bits_.memory.size()); ++bit)
+    if ((known >> (bit - low) & 1) == 0)
+      word |= (bits_.memory[bit][static_cast<std::size_t>(pixel) / 64] >> (pixel % 64) & 1) << (bit - low);
   return static_cast<std::uint32_t>(word);
 }
 
@@ -309,14 +307,17 @@ void WordEngine::to_bits() {
   bits_current_ = true;
 }
 
+/// Of a new field, which holds zeros.
 void WordEngine::load(Field& field) const {
-  for (int pixel = 0; pixel < spec_.pixels(); ++pixel) {
-    std::size_t inside = 0;
-    const std::size_t tile = tile_of(pixel, inside);
-    std::uint32_t value = 0;
-    for (unsigned b = 0; b < field.place.bits; ++b)
-      value |= static_cast<std::uint32_t>(bits_.memory[field.place.low + b][static_cast<std::size_t>(pixel) / 64] >> (pixel % 64) & 1) << b;
-    field.values[tile * kTilePixels + inside] = value;
+  for (unsigned b = 0; b < field.place.bits; ++b) {
+    const Plane& plane = bits_.memory[field.place.low + b];
+    for (std::size_t word = 0; word < plane.size(); ++word) {
+      if (plane[word] == 0) continue;
+      std::size_t inside = 0;
+      const std::size_t first = tile_of(static_cast<int>(word) * 64, inside);
+      for (std::size_t p = 0; p < 64; ++p)
+        field.tiles[first + p / kTileSide].values[inside + p % kTileSide] |= static_cast<std::uint32_t>(plane[word] >> p & 1) << b;
+    }
   }
 }
 
@@ -326,10 +327,10 @@ void WordEngine::save(const Field& field) {
     for (std::size_t word = 0; word < plane.size(); ++word) {
       std::uint64_t value = 0;
       std::size_t inside = 0;
-      const std::size_t first = tile_of(static_cast<int>(word) * 64, inside) * kTilePixels + inside;
+      const std::size_t first = tile_of(static_cast<int>(word) * 64, inside);
       for (std::size_t p = 0; p < 64; ++p) {
-        const std::size_t at = first + p / kTileSide * kTilePixels + p % kTileSide;
-        value |= static_cast<std::uint64_t>(field.values[at] >> b & 1) << p;
+        const TileField& tile = field.tiles[first + p / kTileSide];
+        value |= static_cast<std::uint64_t>(tile.values[inside + p % kTileSide] >> b & 1) << p;
       }
       plane[word] = value;
     }

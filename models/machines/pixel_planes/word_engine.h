@@ -25,8 +25,7 @@ class WordEngine {
   WordEngine(const Spec& spec, bool lazy);
 
   /// A command at its entry; the registers are those of `controller`.
-  void execute(const std::vector<igc::MicroWord>& program, const igc::Command& command,
-               const igc::ControllerState& controller);
+  void execute(const MacroProgram& program, const igc::Command& command, const igc::ControllerState& controller);
 
   /// Bits low to low + 31 of a pixel; 0 beyond the memory.
   std::uint32_t peek(int pixel, unsigned low);
@@ -39,7 +38,7 @@ class WordEngine {
  private:
   struct Field {
     FieldPlace place;
-    std::vector<std::uint32_t> values;  ///< tile by tile
+    std::vector<TileField> tiles;
   };
 
   /// A macro-operation whose fields are numbers of fields_.
