@@ -80,11 +80,12 @@ void ClockedEngine::evaluate(std::int64_t n) {
   if (vcd_ && vcd_->wants(n)) vcd_->before(n);
 
   count(cause);
+  if (controller_.running()) stretches_.back().to = n + 1;
   const bool ready = translator_.ready();
   translator_.clock(n, fifo_);
-  if (!stolen) move_array(ready);
+  if (!stolen) move_array(n, ready);
   if (vcd_ && vcd_->wants(n)) vcd_->after(cause);
-  watch_limit();
+  watch_limit(n);
   if (n % kProgressClocks == 0 && options_.progress) options_.progress(n);
 }
 
@@ -131,16 +132,18 @@ void ClockedEngine::count(ClockedCause cause) {
   }
 }
 
-void ClockedEngine::move_array(bool ready) {
+void ClockedEngine::move_array(std::int64_t n, bool ready) {
   OnItsWay& slot = way_[way_at_];
   const OnItsWay arrived = slot;
   slot = {};
   way_at_ = (way_at_ + 1) % way_.size();
   if (!controller_.running() && ready) {
-    controller_.take(translator_.command());
+    const unsigned entry = translator_.command().header.entry;
+    if (!controller_.take(translator_.command()))
+      error_ = std::make_exception_ptr(UserError(fmt::format("the micro-program at word {} sends nothing", entry)));
     translator_.taken();
     ++fifo_counters_.commands;
-    command_clocks_ = 0;
+    book(controller_.command().header, n);
   }
   if (controller_.running()) {
     const ClockedController::Sent sent = controller_.send();
@@ -148,11 +151,6 @@ void ClockedEngine::move_array(bool ready) {
     if (sent.starts_stream) feed_.start(command.a, command.b, command.c);
     slot = {true, sent.word};
     ++words_on_their_way_;
-    ++command_clocks_;
-    if (!options_.marks.empty() && sent.from_store) {
-      const auto mark = options_.marks.find(sent.address);
-      if (mark != options_.marks.end()) marks_.push_back({mark->second, next_clock_ - 1});
-    }
   } else {
     controller_.pause();
   }
@@ -162,11 +160,25 @@ void ClockedEngine::move_array(bool ready) {
   if (arrived.word_sent) --words_on_their_way_;
 }
 
-void ClockedEngine::watch_limit() {
-  if (options_.tick_limit <= 0 || command_clocks_ <= options_.tick_limit || !controller_.running() || error_) return;
-  error_ = std::make_exception_ptr(UserError(
-      fmt::format("pixel_planes: the micro-program at entry {} did not end within {} clocks",
-                  controller_.command().header.entry, options_.tick_limit)));
+void ClockedEngine::book(const igc::Header& header, std::int64_t n) {
+  std::string name = "run";
+  const auto mark = options_.marks.find(header.entry);
+  if (header.register_write) {
+    name = "registers";
+  } else if (mark != options_.marks.end() && mark->second.rfind("phase_", 0) == 0) {
+    name = mark->second.substr(6, mark->second.find('.') - 6);
+  }
+  if (!stretches_.empty() && stretches_.back().name == name && stretches_.back().to == n) {
+    stretches_.back().to = n + 1;
+  } else {
+    stretches_.push_back({name, n, n + 1});
+  }
+}
+
+void ClockedEngine::watch_limit(std::int64_t n) {
+  if (options_.tick_limit <= 0 || n < options_.tick_limit || !controller_.running() || error_) return;
+  error_ = std::make_exception_ptr(
+      UserError(fmt::format("the machine has run for {} clocks: the limit is reached", options_.tick_limit)));
 }
 
 void ClockedEngine::after_clock() {

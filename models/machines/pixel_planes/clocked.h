@@ -29,9 +29,15 @@ enum class ClockedCause : std::uint8_t { kBusy, kRefresh, kVideo, kTranslator, k
 /// it does not matter which of the two comes first in that picosecond.
 class ClockedEngine : public sc_core::sc_module, public HostPort {
  public:
+  /// A named stretch of the host's program, from the first clock on that begins at or behind its call.
   struct HostPhase {
     std::string name;
-    std::int64_t from_ps = 0;
+    std::int64_t from = 0;
+  };
+  /// Clocks [from, to) in which commands of one phase ran.
+  struct Stretch {
+    std::string name;
+    std::int64_t from = 0, to = 0;
   };
 
   /// Throws UserError for a waveform file that cannot be written.
@@ -58,7 +64,8 @@ class ClockedEngine : public sc_core::sc_module, public HostPort {
   const ControllerCounters& controller_counters() const { return counters_; }
   const FifoCounters& fifo_counters() const { return fifo_counters_; }
   const std::vector<HostPhase>& host_phases() const { return phases_; }
-  const std::vector<MarkEvent>& marks() const { return marks_; }
+  const std::vector<Stretch>& machine_phases() const { return stretches_; }
+  bool time_read() const { return time_read_; }  ///< the host has read the status
   const VideoState& video() const { return video_; }
   igc::ClockedPlanes& planes() { return planes_; }
 
@@ -71,8 +78,9 @@ class ClockedEngine : public sc_core::sc_module, public HostPort {
   ClockedCause steal(std::int64_t n);
   ClockedCause cause_of(ClockedCause thief) const;
   void count(ClockedCause cause);
-  void move_array(bool ready);
-  void watch_limit();
+  void move_array(std::int64_t n, bool ready);
+  void book(const igc::Header& header, std::int64_t n);
+  void watch_limit(std::int64_t n);
   void after_clock();
   bool idle_now() const;  ///< at the beginning of clock next_clock_, if the host offers nothing more before
   bool behind_fifo_idle() const;
@@ -88,7 +96,7 @@ class ClockedEngine : public sc_core::sc_module, public HostPort {
   bool room_at(std::int64_t clock) const;
   void offer(std::uint32_t word);
   void store(std::uint32_t address, std::uint32_t value);
-  std::uint32_t load(std::uint32_t address) const;
+  std::uint32_t load(std::uint32_t address);
 
   struct Write {
     std::int64_t clock = 0;
@@ -118,7 +126,6 @@ class ClockedEngine : public sc_core::sc_module, public HostPort {
   std::int64_t next_clock_ = 0;
   bool idle_before_ = true;        ///< at the beginning of clock next_clock_ - 1
   std::size_t fifo_before_ = 0;    ///< words there then
-  std::int64_t command_clocks_ = 0;
 
   std::function<void(HostPort&)> program_;
   std::deque<Write> writes_;
@@ -126,13 +133,13 @@ class ClockedEngine : public sc_core::sc_module, public HostPort {
   bool host_ended_ = false, host_waits_for_idle_ = false, host_waits_for_room_ = false;
   std::int64_t host_end_ps_ = 0, host_busy_ps_ = 0;
   sc_core::sc_event idle_event_, room_event_;
-  bool stopped_ = false;
+  bool stopped_ = false, time_read_ = false;
   std::exception_ptr error_;
 
   ControllerCounters counters_;
   FifoCounters fifo_counters_;
   std::vector<HostPhase> phases_;
-  std::vector<MarkEvent> marks_;
+  std::vector<Stretch> stretches_;
   igc::ArrayWord obeyed_;  ///< by the array in the last clock that was not stolen
   igc::TreeLines lines_;
   std::unique_ptr<ClockedVcd> vcd_;

@@ -70,7 +70,7 @@ void ClockedController::set_half(std::uint32_t index, std::uint32_t value) {
   word = (word & ~(std::uint64_t{0xFFFFFFFF} << low)) | std::uint64_t{value} << low;
 }
 
-void ClockedController::take(const igc::Command& command) {
+bool ClockedController::take(const igc::Command& command) {
   DENDRO_CHECK(!running_, "the controller takes a command while it runs one");
   command_ = command;
   running_ = true;
@@ -80,10 +80,11 @@ void ClockedController::take(const igc::Command& command) {
   if (command.header.register_write) {
     registers_[command.header.register_number] = static_cast<std::uint8_t>(command.header.value);
     only_idle_word_ = true;
-    return;
+    return true;
   }
   address_ = command.header.entry;
-  only_idle_word_ = !settle();
+  running_ = settle();
+  return running_;
 }
 
 unsigned ClockedController::turns_of(const MicroWord& word) const {

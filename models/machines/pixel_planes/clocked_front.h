@@ -74,8 +74,8 @@ class ClockedController {
   explicit ClockedController(int gap_clocks) : gap_(static_cast<unsigned>(gap_clocks)) {}
 
   bool running() const { return running_; }
-  /// When not running; send() of the same clock gives the command's first word.
-  void take(const igc::Command& command);
+  /// When not running; send() of the same clock gives the command's first word. False: the program sends nothing.
+  bool take(const igc::Command& command);
   /// One clock that is not stolen, running.
   Sent send();
   /// One clock that is not stolen, in which nothing goes out.
@@ -104,7 +104,7 @@ class ClockedController {
   std::array<std::uint8_t, igc::kRegisters> registers_{};
   igc::Command command_;
   bool running_ = false;
-  bool only_idle_word_ = false;  ///< this command sends nothing of the control store
+  bool only_idle_word_ = false;  ///< a register write
   bool first_word_ = false, last_had_tree_ = false;
   unsigned address_ = 0;
   bool in_loop_ = false;

@@ -76,20 +76,23 @@ void ClockedEngine::store(std::uint32_t address, std::uint32_t value) {
   } else if (address == kFifo) {
     offer(value);
   } else if (address == kVideoBase) {
-    video_.base = value;
+    video_.base = value & (igc::kMostMemoryBits - 1);
   } else if (address == kVideoSize) {
     video_.width = static_cast<int>(value & 0xFFFF);
     video_.height = static_cast<int>(value >> 16);
   }
 }
 
-std::uint32_t ClockedEngine::load(std::uint32_t address) const {
+std::uint32_t ClockedEngine::load(std::uint32_t address) {
   if (address < kControlStoreEnd) {
     for (auto write = writes_.rbegin(); write != writes_.rend(); ++write)
       if (write->index == address - kControlStore) return write->value;
     return controller_.half(address - kControlStore);
   }
-  if (address == kStatus) return idle_at(clock_now()) ? 0 : 1;
+  if (address == kStatus) {
+    time_read_ = true;
+    return idle_at(clock_now()) ? 0 : 1;
+  }
   if (address == kVideoBase) return video_.base;
   if (address == kVideoSize) return static_cast<std::uint32_t>(video_.width) | static_cast<std::uint32_t>(video_.height) << 16;
   return 0;
@@ -143,6 +146,6 @@ void ClockedEngine::compute(const Work& work) {
            static_cast<std::int64_t>(work.program_loads) * spec_.host.program_load_ps);
 }
 
-void ClockedEngine::phase(std::string_view name) { phases_.push_back({std::string(name), now_in_ps()}); }
+void ClockedEngine::phase(std::string_view name) { phases_.push_back({std::string(name), (now_in_ps() + tick_ps_ - 1) / tick_ps_}); }
 
 }  // namespace dendro::pixel_planes

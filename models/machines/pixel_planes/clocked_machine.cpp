@@ -21,11 +21,11 @@ class ClockedMachine : public Machine {
   std::uint64_t instructions() const override { return engine_->controller_counters().busy; }
   std::vector<Phase> phases() const override;
   std::vector<UnitStats> units() const override;
-  std::vector<MarkEvent> marks() const override { return engine_->marks(); }
+  std::vector<MarkEvent> marks() const override { return {}; }
   std::vector<std::string> elaborated() const override {
     return {"pixel_planes.controller", "pixel_planes.array", "pixel_planes.host"};
   }
-  bool time_dependent() const override { return false; }
+  bool time_dependent() const override { return engine_->time_read(); }
   Picture picture() const override;
   std::uint32_t peek(std::uint32_t address, unsigned function) const override;
 
@@ -36,27 +36,46 @@ class ClockedMachine : public Machine {
 
 std::vector<Phase> ClockedMachine::phases() const {
   std::vector<Phase> phases;
-  const auto& named = engine_->host_phases();
-  const std::int64_t end = engine_->clocks();
-  const auto begin_of = [&](std::size_t i) { return i < named.size() ? named[i].from_ps / spec_.tick_ps : end; };
-  if (begin_of(0) > 0) phases.push_back({"host", begin_of(0), true});
-  for (std::size_t i = 0; i < named.size(); ++i) {
-    const std::int64_t clocks = begin_of(i + 1) - begin_of(i);
-    if (clocks > 0) phases.push_back({named[i].name, clocks, true});
+  const auto add = [&](const std::string& name, std::int64_t clocks, bool on_host) {
+    if (clocks == 0) return;
+    const bool same = !phases.empty() && phases.back().name == name && phases.back().on_host == on_host;
+    if (!same) phases.push_back({name, 0, on_host});
+    phases.back().cycles += clocks;
+  };
+  const auto& host = engine_->host_phases();
+  std::string name = "host";
+  std::size_t next = 0;
+  std::int64_t at = 0;
+  const auto host_until = [&](std::int64_t end) {
+    while (at < end) {
+      while (next < host.size() && host[next].from <= at) name = host[next++].name;
+      const std::int64_t until = next < host.size() ? std::min(end, host[next].from) : end;
+      add(name, until - at, true);
+      at = until;
+    }
+  };
+  for (const ClockedEngine::Stretch& stretch : engine_->machine_phases()) {
+    host_until(stretch.from);
+    add(stretch.name, stretch.to - stretch.from, false);
+    at = stretch.to;
   }
+  host_until(engine_->clocks());
   return phases;
 }
 
 std::vector<UnitStats> ClockedMachine::units() const {
   const auto total = static_cast<std::uint64_t>(engine_->clocks());
   const ControllerCounters& c = engine_->controller_counters();
+  const FifoCounters& f = engine_->fifo_counters();
   const std::uint64_t host_busy =
       std::min(total, static_cast<std::uint64_t>(engine_->host_busy_ps() / spec_.tick_ps));
   return {{"pixel_planes.controller",
            {{"cycles", total}, {"busy", c.busy}, {"stall_refresh", c.stall_refresh}, {"stall_video", c.stall_video},
-            {"stall_translator", c.stall_translator}, {"stall_drain", c.stall_drain}, {"idle", c.idle}}},
+            {"stall_translator", c.stall_translator}, {"stall_drain", c.stall_drain}, {"idle", c.idle},
+            {"commands", f.commands}}},
           {"pixel_planes.array", {{"cycles", total}, {"busy", c.busy}, {"idle", total - c.busy}}},
-          {"pixel_planes.host", {{"cycles", total}, {"busy", host_busy}, {"idle", total - host_busy}}}};
+          {"pixel_planes.host", {{"cycles", total}, {"busy", host_busy}, {"idle", total - host_busy}, {"fifo_words", f.words},
+            {"fifo_full_clocks", f.full_clocks}}}};
 }
 
 std::uint32_t ClockedMachine::peek(std::uint32_t address, unsigned function) const {

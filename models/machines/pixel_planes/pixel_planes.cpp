@@ -15,7 +15,7 @@ class FunctionPort : public HostPort {
  public:
   explicit FunctionPort(Device& device) : device_(device) {}
 
-  std::uint32_t read(std::uint32_t, unsigned) override { return 0; }
+  std::uint32_t read(std::uint32_t address, unsigned) override { return device_.read(address); }
   void write(std::uint32_t address, std::uint32_t value, unsigned) override {
     if (const auto done = device_.write(address, value)) words_ += done->words;
   }
@@ -23,8 +23,8 @@ class FunctionPort : public HostPort {
               std::uint32_t step) override {
     for (std::size_t i = 0; i < count; ++i) write(address + static_cast<std::uint32_t>(i) * step, words[i], function);
   }
-  void dma_from(std::uint32_t, std::uint32_t* words, std::size_t count, unsigned, std::uint32_t) override {
-    std::fill_n(words, count, 0);
+  void dma_from(std::uint32_t address, std::uint32_t* words, std::size_t count, unsigned, std::uint32_t step) override {
+    for (std::size_t i = 0; i < count; ++i) words[i] = device_.read(address + static_cast<std::uint32_t>(i) * step);
   }
   void command(std::uint32_t) override {}
   void wait_interrupt() override {}
