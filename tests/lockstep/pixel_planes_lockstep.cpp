@@ -79,12 +79,14 @@ void run_both(const Scenario& scenario) {
 
 class Writer {
  public:
-  Writer(Random& random, const Spec& spec) : random_(random), spec_(spec) {}
+  Writer(Random& random, const Spec& spec)
+      : random_(random), spec_(spec), anywhere_(spec.tree.masked && one_in(random, 3)) {}
 
   std::vector<std::uint64_t> program() {
     MicroWord word;
     word.function = Function::kSetEnable;
     word.data = DataOp::kClear;
+    word.tree = anywhere_ && one_in(random_, 2);
     words_.push_back(word);
     word = {};
     word.function = Function::kLoad;
@@ -147,12 +149,13 @@ class Writer {
     w.offset_a = static_cast<std::uint8_t>(below(random_, one_in(random_, 20) ? 256 : static_cast<unsigned>(spec_.array.memory_bits)));
     w.offset_b = static_cast<std::uint8_t>(below(random_, static_cast<unsigned>(spec_.array.memory_bits)));
     w.constant_offset = static_cast<std::uint8_t>(below(random_, 64));
-    w.tree = tree;
+    w.tree = anywhere_ ? !one_in(random_, 4) : tree;
     return w;
   }
 
   Random& random_;
   const Spec& spec_;
+  bool anywhere_;  ///< streams of any length begin and stop anywhere, and their leading zeros are looked at
   std::vector<MicroWord> words_;
 };
 

@@ -237,6 +237,15 @@ TEST(ClockedPixelPlanesTime, WhatCannotEndEndsWithOneClearLine) {
     host.write(kFifo, igc::pack(igc::Header()), 0);
     host.wait_interrupt();
   });
+  fails({}, [&](HostPort& host) {
+    MicroWord none;
+    none.loop = igc::LoopCount::kGuard;
+    none.loop_end = none.end = true;
+    const std::uint64_t word = igc::pack(none);
+    host.write(0, static_cast<std::uint32_t>(word), 0);
+    host.write(1, static_cast<std::uint32_t>(word >> 32), 0);
+    host.write(kFifo, igc::pack(igc::Header()), 0);
+  });
   fails({}, [](HostPort&) { throw UserError("wrong scene"); });
 }
 
