@@ -35,17 +35,20 @@ std::string in_words(const Spec& s) {
                      s.host.word_ps, s.host.flop_ps, s.host.interrupt_ps);
 }
 
-void compare_pixels(const Machine& a, const Machine& b, const Spec& spec) {
-  int told = 0;
-  for (int low = 0; low < spec.array.memory_bits; low += 32)
-    for (int p = 0; p < spec.pixels(); ++p) {
-      const std::uint32_t x = a.peek(static_cast<std::uint32_t>(p), static_cast<unsigned>(low));
-      const std::uint32_t y = b.peek(static_cast<std::uint32_t>(p), static_cast<unsigned>(low));
-      if (x == y) continue;
-      ADD_FAILURE() << fmt::format("pixel {}, {} bits {} up: cycle {:08x} clocked {:08x}", p % spec.array.width,
-                                   p / spec.array.width, low, x, y);
-      if (++told == 5) return;
-    }
+/// Everything but the pixels, as "name value".
+std::vector<std::string> outcome(const Machine& machine) {
+  std::vector<std::string> lines{fmt::format("time_dependent {}", machine.time_dependent()),
+                                 fmt::format("cycles {}", machine.cycles()),
+                                 fmt::format("machine_cycles {}", machine.machine_cycles()),
+                                 fmt::format("instructions {}", machine.instructions())};
+  for (const UnitStats& unit : machine.units())
+    for (const auto& [name, value] : unit.values)
+      // How the simulator worked, not what the machine did.
+      if (name != "pixel_operations" && name != "evaluated_pixel_operations" && name != "bitwise_commands")
+        lines.push_back(fmt::format("{}.{} {}", unit.unit, name, value));
+  for (const Phase& phase : machine.phases())
+    lines.push_back(fmt::format("phase {} {} {}", phase.name, phase.cycles, phase.on_host ? "host" : "machine"));
+  return lines;
 }
 
 void run_both(const Scenario& scenario) {
@@ -65,14 +68,8 @@ void run_both(const Scenario& scenario) {
   }
   ASSERT_EQ(cycle_error, clocked_error) << "cycle | clocked";
   if (!cycle_error.empty()) return;
-  const std::vector<std::string> a = outcome(cycle, cycle_seen), b = outcome(*clocked, clocked_seen);
-  for (std::size_t i = 0; i < std::max(a.size(), b.size()); ++i)
-    ASSERT_EQ(i < a.size() ? a[i] : "nothing", i < b.size() ? b[i] : "nothing") << "cycle | clocked";
-  compare_pixels(cycle, *clocked, scenario.spec);
-  const Picture p = cycle.picture(), q = clocked->picture();
-  EXPECT_EQ(p.width, q.width);
-  EXPECT_EQ(p.height, q.height);
-  EXPECT_TRUE(p.rgb == q.rgb) << "pictures differ";
+  ASSERT_EQ(cycle_seen, clocked_seen) << "what the host read, cycle | clocked";
+  expect_same(cycle, *clocked, scenario.spec);
 }
 
 // Micro-programs -------------------------------------------------------------------------------------------------------
@@ -245,29 +242,37 @@ void play(Random random, const Spec& spec, HostPort& host, std::vector<std::int6
 
 }  // namespace
 
-std::vector<std::string> outcome(const Machine& machine, const std::vector<std::int64_t>& seen) {
-  std::vector<std::string> lines{fmt::format("time_dependent {}", machine.time_dependent()),
-                                 fmt::format("cycles {}", machine.cycles()),
-                                 fmt::format("machine_cycles {}", machine.machine_cycles()),
-                                 fmt::format("instructions {}", machine.instructions())};
-  for (const UnitStats& unit : machine.units())
-    for (const auto& [name, value] : unit.values)
-      // How the simulator worked, not what the machine did.
-      if (name != "pixel_operations" && name != "evaluated_pixel_operations" && name != "bitwise_commands")
-        lines.push_back(fmt::format("{}.{} {}", unit.unit, name, value));
-  for (const Phase& phase : machine.phases())
-    lines.push_back(fmt::format("phase {} {} {}", phase.name, phase.cycles, phase.on_host ? "host" : "machine"));
-  for (const std::int64_t value : seen) lines.push_back(fmt::format("read {}", value));
-  return lines;
+void expect_same_pixels(const Machine& a, const Machine& b, const Spec& spec, const std::string& names) {
+  int told = 0;
+  for (int low = 0; low < spec.array.memory_bits; low += 32)
+    for (int p = 0; p < spec.pixels(); ++p) {
+      const std::uint32_t x = a.peek(static_cast<std::uint32_t>(p), static_cast<unsigned>(low));
+      const std::uint32_t y = b.peek(static_cast<std::uint32_t>(p), static_cast<unsigned>(low));
+      if (x == y) continue;
+      ADD_FAILURE() << fmt::format("pixel {}, {} bits {} up: {:08x} {:08x}, {}", p % spec.array.width,
+                                   p / spec.array.width, low, x, y, names);
+      if (++told == 5) return;
+    }
 }
 
-void expect_lockstep(const Scenario& scenario, const std::string& repeat) {
+void expect_same(const Machine& cycle, const Machine& clocked, const Spec& spec) {
+  const std::vector<std::string> a = outcome(cycle), b = outcome(clocked);
+  for (std::size_t i = 0; i < std::max(a.size(), b.size()); ++i)
+    ASSERT_EQ(i < a.size() ? a[i] : "nothing", i < b.size() ? b[i] : "nothing") << "cycle | clocked";
+  expect_same_pixels(cycle, clocked, spec, "cycle | clocked");
+  const Picture p = cycle.picture(), q = clocked.picture();
+  EXPECT_EQ(p.width, q.width);
+  EXPECT_EQ(p.height, q.height);
+  EXPECT_TRUE(p.rgb == q.rgb) << "pictures differ";
+}
+
+void in_child(const std::function<void()>& body, const std::string& repeat) {
   std::cout.flush();
   const pid_t child = fork();
   ASSERT_GE(child, 0);
   if (child == 0) {
     try {
-      run_both(scenario);
+      body();
     } catch (const std::exception& e) {
       ADD_FAILURE() << e.what();
     }
@@ -277,7 +282,11 @@ void expect_lockstep(const Scenario& scenario, const std::string& repeat) {
   }
   int status = 0;
   ASSERT_EQ(waitpid(child, &status, 0), child);
-  ASSERT_TRUE(WIFEXITED(status) && WEXITSTATUS(status) == 0) << repeat << "\n" << in_words(scenario.spec);
+  ASSERT_TRUE(WIFEXITED(status) && WEXITSTATUS(status) == 0) << repeat;
+}
+
+void expect_lockstep(const Scenario& scenario, const std::string& repeat) {
+  in_child([&] { run_both(scenario); }, repeat + "\n" + in_words(scenario.spec));
 }
 
 Spec random_spec(Random& random) {

@@ -20,11 +20,17 @@ struct Scenario {
   HostProgram program;  ///< writes into `seen` what it reads
 };
 
-/// Everything but the pixels, as "name value".
-std::vector<std::string> outcome(const Machine& machine, const std::vector<std::int64_t>& seen);
+/// Fails the calling test where the bits of any pixel differ; names stand for the two machines in messages.
+void expect_same_pixels(const Machine& a, const Machine& b, const Spec& spec, const std::string& names);
 
-/// Runs `cycle` and `clocked` in a child process and compares all bits of all pixels, clocks, counters, phases, picture.
-/// Fails the calling test with the first difference; `repeat` says how to repeat it.
+/// Fails the calling test where clocks, counters, phases, pixels or pictures differ.
+void expect_same(const Machine& cycle, const Machine& clocked, const Spec& spec);
+
+/// Runs a test's body in a child process, because SystemC elaborates once per process. Fails the calling test if it fails.
+void in_child(const std::function<void()>& body, const std::string& repeat);
+
+/// Runs `cycle` and `clocked` in a child process and compares all that can be seen, and what the programs read.
+/// `repeat` says how to repeat it.
 void expect_lockstep(const Scenario& scenario, const std::string& repeat);
 
 /// Any parameters, 64 to 128 pixels a side.

@@ -81,10 +81,7 @@ std::vector<UnitStats> ClockedMachine::units() const {
 std::uint32_t ClockedMachine::peek(std::uint32_t address, unsigned function) const {
   const auto width = static_cast<std::uint32_t>(spec_.array.width);
   if (address >= static_cast<std::uint32_t>(spec_.pixels())) return 0;
-  std::uint32_t word = 0;
-  for (unsigned i = 0; i < 32 && function + i < static_cast<unsigned>(spec_.array.memory_bits); ++i)
-    word |= static_cast<std::uint32_t>(engine_->planes().memory(function + i, address % width, address / width)) << i;
-  return word;
+  return engine_->planes().memory_word(function, address % width, address / width);
 }
 
 Picture ClockedMachine::picture() const {

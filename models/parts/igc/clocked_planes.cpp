@@ -22,6 +22,7 @@ ClockedPlanes::ClockedPlanes(const PlanesSpec& spec)
   const std::size_t row = x_.row_words();
   for (std::size_t c = 0; c < chips_; ++c)
     chip_.push_back({TreeOfY(chip_levels_, 1, row), ClockedArray(row << chip_levels_, spec.memory_bits, spec.ports)});
+  for (unsigned x = 0; x < 1u << spec.levels_x; ++x) leaf_in_row_.push_back(leaf_of(spec.levels_x, x, 0));
   for (Clock& clock : clocks_) clock.bits.resize(chip_levels_);
 }
 
@@ -48,27 +49,35 @@ void ClockedPlanes::catch_up() {
   gathered_ = 0;
 }
 
-const ClockedArray& ClockedPlanes::chip_of(unsigned y, std::size_t* leaf, unsigned x) {
+const ClockedArray& ClockedPlanes::chip_of(unsigned x, unsigned y, std::size_t* leaf) {
   if (gathered_ > 0) catch_up();
-  *leaf = leaf_of(spec_.levels_x, x, y & ((1u << chip_levels_) - 1));
+  *leaf = leaf_in_row_[x] + (std::size_t{y & ((1u << chip_levels_) - 1)} << spec_.levels_x);
   return chip_[y >> chip_levels_].pixels;
 }
 
 bool ClockedPlanes::memory(unsigned bit, unsigned x, unsigned y) {
   std::size_t leaf = 0;
-  return chip_of(y, &leaf, x).memory(bit, leaf);
+  return chip_of(x, y, &leaf).memory(bit, leaf);
+}
+std::uint32_t ClockedPlanes::memory_word(unsigned low, unsigned x, unsigned y) {
+  std::size_t leaf = 0;
+  const ClockedArray& pixels = chip_of(x, y, &leaf);
+  std::uint32_t word = 0;
+  for (unsigned i = 0; i < 32 && low + i < spec_.memory_bits; ++i)
+    word |= static_cast<std::uint32_t>(pixels.memory(low + i, leaf)) << i;
+  return word;
 }
 bool ClockedPlanes::enable(unsigned x, unsigned y) {
   std::size_t leaf = 0;
-  return chip_of(y, &leaf, x).enable(leaf);
+  return chip_of(x, y, &leaf).enable(leaf);
 }
 bool ClockedPlanes::carry(unsigned x, unsigned y) {
   std::size_t leaf = 0;
-  return chip_of(y, &leaf, x).carry(leaf);
+  return chip_of(x, y, &leaf).carry(leaf);
 }
 bool ClockedPlanes::data(unsigned x, unsigned y) {
   std::size_t leaf = 0;
-  return chip_of(y, &leaf, x).data(leaf);
+  return chip_of(x, y, &leaf).data(leaf);
 }
 
 std::uint64_t ClockedPlanes::enabled() {

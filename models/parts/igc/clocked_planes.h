@@ -26,6 +26,8 @@ class ClockedPlanes {
 
   /// State after all clocks so far.
   bool memory(unsigned bit, unsigned x, unsigned y);
+  /// Bits low to low + 31 of a pixel; those beyond the memory are 0.
+  std::uint32_t memory_word(unsigned low, unsigned x, unsigned y);
   bool enable(unsigned x, unsigned y);
   bool carry(unsigned x, unsigned y);
   bool data(unsigned x, unsigned y);
@@ -41,7 +43,8 @@ class ClockedPlanes {
     std::vector<LevelBits> bits;  ///< of the chips' levels
   };
   void catch_up();
-  const ClockedArray& chip_of(unsigned y, std::size_t* leaf, unsigned x);
+  /// Up to date, with the place of the pixel among its leaves.
+  const ClockedArray& chip_of(unsigned x, unsigned y, std::size_t* leaf);
 
   PlanesSpec spec_;
   unsigned chip_levels_;
@@ -49,6 +52,7 @@ class ClockedPlanes {
   TreeOfX x_;
   TreeOfY upper_;
   std::size_t chips_;
+  std::vector<std::size_t> leaf_in_row_;  ///< by x
   std::vector<Chip> chip_;
   std::vector<Clock> clocks_;
   std::vector<BitPlane> inputs_;  ///< by gathered clock: a row for each chip
