@@ -20,7 +20,7 @@ void CycleMachine::run(const std::function<void(HostPort&)>& host_program) {
 
 std::uint32_t CycleMachine::read(std::uint32_t address, unsigned) {
   spend(spec_.host.word_ps);
-  if (address != kStatus) return 0;
+  if (address != kStatus) return device_.read(address);
   time_read_ = true;
   return command_words_ > 0 || now_ps_ / spec_.tick_ps < timing_.idle_from() ? 1 : 0;
 }

@@ -48,6 +48,14 @@ std::optional<Device::Done> Device::write(std::uint32_t address, std::uint32_t v
   return std::nullopt;
 }
 
+std::uint32_t Device::read(std::uint32_t address) const {
+  if (address < kControlStoreEnd) return static_cast<std::uint32_t>(controller_.store[address / 2] >> (address % 2 * 32));
+  if (address == kVideoBase) return video_.base;
+  if (address == kVideoSize)
+    return static_cast<std::uint32_t>(video_.width) | static_cast<std::uint32_t>(video_.height) << 16;
+  return 0;
+}
+
 Device::Done Device::carry_out(const igc::Command& command) {
   if (command.header.register_write) {
     controller_.registers[command.header.register_number] = static_cast<std::uint8_t>(command.header.value);

@@ -38,6 +38,9 @@ class Device {
   /// Throws UserError for a command whose program has no end, or sends no word.
   std::optional<Done> write(std::uint32_t address, std::uint32_t value);
 
+  /// Control store and video registers; 0 elsewhere.
+  std::uint32_t read(std::uint32_t address) const;
+
   Picture picture();
   std::uint32_t peek(std::uint32_t pixel, unsigned low) {
     return pixel < static_cast<std::uint32_t>(spec_.pixels()) ? engine_.peek(static_cast<int>(pixel), low) : 0;
