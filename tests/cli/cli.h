@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 #include <sys/wait.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <cstdlib>
@@ -24,7 +25,8 @@ class CommandTest : public ::testing::Test {
  protected:
   CommandTest() {
     const auto* info = ::testing::UnitTest::GetInstance()->current_test_info();
-    std::string name = std::string("dendro_cli_") + info->test_suite_name() + "_" + info->name();
+    // The process is in the name: two trees may be tested at once.
+    std::string name = "dendro_cli_" + std::to_string(::getpid()) + "_" + info->test_suite_name() + "_" + info->name();
     std::replace(name.begin(), name.end(), '/', '_');
     base_ = std::filesystem::path(::testing::TempDir()) / name;
     folder_ = base_ / "work";
