@@ -44,9 +44,6 @@ class HullsDriver {
   std::uint32_t entry_;
 };
 
-/// The host's arithmetic before the first hull: grows and sets up.
-void compute_set_up(HostPort& host, const PreparedHulls& prepared);
-
 /// What the VAX does: one program load, nearest cleared, then the hulls one after another: records, start,
 /// wait. `repeat_field`: see RdsDriver::set_viewport.
 void run(HostPort& host, const PreparedHulls& prepared, const lib::ProgramImage& image,

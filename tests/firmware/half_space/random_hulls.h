@@ -3,6 +3,7 @@
 #include <cmath>
 #include <random>
 
+#include "firmware/half_space/host/hulls_layout.h"
 #include "firmware/half_space/host/prepare_hulls.h"
 #include "tests/firmware/half_space/scenes.h"
 
@@ -49,6 +50,21 @@ inline scene::Object random_object(std::mt19937& random) {
   scene::Object object = random_object(random, HullShape{});
   object.at = at;
   return object;
+}
+
+/// The third register of every pixel.
+inline std::vector<std::uint8_t> nearest_of(const FixedPointPicture& picture) {
+  std::vector<std::uint8_t> nearest;
+  for (const std::uint32_t word : picture.pixels)
+    nearest.push_back(static_cast<std::uint8_t>(word >> kNearestLow & kHullField));
+  return nearest;
+}
+
+/// What the look-up table makes of it.
+inline std::vector<std::uint8_t> shown(const std::vector<std::uint8_t>& nearest, const std::vector<Rgb>& shades) {
+  std::vector<std::uint8_t> rgb;
+  for (const std::uint8_t depth : nearest) rgb.insert(rgb.end(), shades[depth].begin(), shades[depth].end());
+  return rgb;
 }
 
 inline scene::Scene random_hulls(std::mt19937& random, int side, int count) {

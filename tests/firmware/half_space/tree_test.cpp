@@ -18,20 +18,6 @@ using namespace testing_scenes;
 
 constexpr unsigned kSeed = 57;
 
-std::vector<std::uint8_t> nearest_of(const FixedPointPicture& picture) {
-  std::vector<std::uint8_t> nearest;
-  for (const std::uint32_t word : picture.pixels)
-    nearest.push_back(static_cast<std::uint8_t>(word >> kNearestLow));
-  return nearest;
-}
-
-/// What the look-up table makes of the registers.
-std::vector<std::uint8_t> shown(const std::vector<std::uint8_t>& nearest, const std::vector<Rgb>& shades) {
-  std::vector<std::uint8_t> rgb;
-  for (const std::uint8_t depth : nearest) rgb.insert(rgb.end(), shades[depth].begin(), shades[depth].end());
-  return rgb;
-}
-
 std::string refusal(const scene::Scene& scene, unsigned pixel_bits = 24) {
   try {
     is_complete_tree(scene);
