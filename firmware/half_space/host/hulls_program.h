@@ -9,7 +9,8 @@
 namespace dendro::half_space {
 
 /// Throws UserError unless the microprogram has the scratch areas `box`, `params` and `records`, and the
-/// records of every hull and trunk fit between `records` and the end of `scratch_words`. `where` is the scene's.
+/// records of every hull and trunk fit between `records` and the end of `scratch_words`. `where` is the
+/// scene's.
 void check_fits(const PreparedHulls& prepared, const lib::ProgramImage& image, std::uint32_t scratch_words,
                 const scene::Where& where);
 

@@ -16,8 +16,8 @@ struct HullShape {
   double flatness = 2000;                ///< of every third cut, which is nearly edge-on
 };
 
-/// A random closed hull around the origin: an axis box, some of its planes edge-on, cut by random planes, every
-/// third of them nearly edge-on and so steep.
+/// A random closed hull around the origin: an axis box, some of its planes edge-on, cut by random planes,
+/// every third of them nearly edge-on and so steep.
 inline scene::Object random_object(std::mt19937& random, const HullShape& shape) {
   std::normal_distribution<double> gauss;
   std::uniform_real_distribution<double> offset(shape.nearest, shape.farthest);
@@ -34,7 +34,8 @@ inline scene::Object random_object(std::mt19937& random, const HullShape& shape)
   const int more = static_cast<int>(random() % shape.cuts);
   for (int i = 0; i < more; ++i) {
     scene::PlaneEntry plane;
-    plane.normal = {gauss(random), gauss(random), i % 3 == 0 ? gauss(random) / shape.flatness : gauss(random)};
+    plane.normal = {gauss(random), gauss(random),
+                    i % 3 == 0 ? gauss(random) / shape.flatness : gauss(random)};
     plane.offset =
         offset(random) * std::sqrt(plane.normal[0] * plane.normal[0] + plane.normal[1] * plane.normal[1] +
                                    plane.normal[2] * plane.normal[2]);
@@ -61,7 +62,8 @@ inline std::vector<std::uint8_t> nearest_of(const FixedPointPicture& picture) {
 }
 
 /// What the look-up table makes of it.
-inline std::vector<std::uint8_t> shown(const std::vector<std::uint8_t>& nearest, const std::vector<Rgb>& shades) {
+inline std::vector<std::uint8_t> shown(const std::vector<std::uint8_t>& nearest,
+                                       const std::vector<Rgb>& shades) {
   std::vector<std::uint8_t> rgb;
   for (const std::uint8_t depth : nearest) rgb.insert(rgb.end(), shades[depth].begin(), shades[depth].end());
   return rgb;
