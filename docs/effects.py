@@ -11,7 +11,7 @@ import sys
 import tomllib
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
-ROWS = {"FG86-A7a": "{:.2f}", "FG86-A7b": "{:.3f}", "FG86-A10": "{:.3f}"}
+ROWS = {"FG86-A7a": "{:.2f}", "FG86-A7b": "{:.3f}", "FG86-A8a": "{:.3f}", "FG86-A9b": "{:.3f}", "FG86-A10": "{:.3f}"}
 
 
 def assumed_parameters():
