@@ -51,23 +51,22 @@ std::vector<std::string> outcome(const Machine& machine) {
   return lines;
 }
 
+/// The error that a run ends in, or nothing.
+std::string error_of(Machine& machine, const Scenario& scenario, std::vector<std::int64_t>& seen) {
+  try {
+    machine.run([&](HostPort& host) { scenario.program(host, seen); });
+  } catch (const UserError& error) {
+    return error.what();
+  }
+  return "";
+}
+
 void run_both(const Scenario& scenario) {
   std::vector<std::int64_t> cycle_seen, clocked_seen;
   CycleMachine cycle(scenario.spec, scenario.options);
   const std::unique_ptr<Machine> clocked = make_clocked(scenario.spec, scenario.options);
-  std::string cycle_error, clocked_error;
-  try {
-    cycle.run([&](HostPort& host) { scenario.program(host, cycle_seen); });
-  } catch (const UserError& error) {
-    cycle_error = error.what();
-  }
-  try {
-    clocked->run([&](HostPort& host) { scenario.program(host, clocked_seen); });
-  } catch (const UserError& error) {
-    clocked_error = error.what();
-  }
-  ASSERT_EQ(cycle_error, clocked_error) << "cycle | clocked";
-  ASSERT_EQ(cycle_error, "");
+  ASSERT_EQ(error_of(cycle, scenario, cycle_seen), "");
+  ASSERT_EQ(error_of(*clocked, scenario, clocked_seen), "");
   ASSERT_EQ(cycle_seen, clocked_seen) << "what the host read, cycle | clocked";
   expect_same(cycle, *clocked, scenario.spec);
 }
@@ -287,6 +286,18 @@ void in_child(const std::function<void()>& body, const std::string& repeat) {
 
 void expect_lockstep(const Scenario& scenario, const std::string& repeat) {
   in_child([&] { run_both(scenario); }, repeat + "\n" + in_words(scenario.spec));
+}
+
+void expect_errors(const Scenario& scenario, const std::string& cycle_says, const std::string& clocked_says) {
+  in_child(
+      [&] {
+        std::vector<std::int64_t> seen;
+        CycleMachine cycle(scenario.spec, scenario.options);
+        const std::unique_ptr<Machine> clocked = make_clocked(scenario.spec, scenario.options);
+        EXPECT_EQ(error_of(cycle, scenario, seen), cycle_says);
+        EXPECT_EQ(error_of(*clocked, scenario, seen), clocked_says);
+      },
+      cycle_says);
 }
 
 Spec random_spec(Random& random) {

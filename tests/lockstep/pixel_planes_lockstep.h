@@ -33,6 +33,9 @@ void in_child(const std::function<void()>& body, const std::string& repeat);
 /// `repeat` says how to repeat it.
 void expect_lockstep(const Scenario& scenario, const std::string& repeat);
 
+/// Each level ends in its line, or without an error.
+void expect_errors(const Scenario& scenario, const std::string& cycle_says, const std::string& clocked_says);
+
 /// Any parameters, 64 to 128 pixels a side.
 Spec random_spec(std::mt19937_64& random);
 
