@@ -12,7 +12,8 @@
 namespace dendro::pixel_planes {
 namespace {
 
-/// DENDRO_SEED repeats one scenario; DENDRO_PROGRAMS sets how many are tried (the long proof of `./dev test --all`).
+/// DENDRO_SEED repeats one scenario; DENDRO_PROGRAMS sets how many are tried (the long proof of `./dev test
+/// --all`).
 std::uint64_t setting(const char* name, std::uint64_t fallback) {
   const char* text = std::getenv(name);
   return text ? std::strtoull(text, nullptr, 10) : fallback;
@@ -53,7 +54,8 @@ Scenario hulls(std::uint64_t seed, const Spec& spec, unsigned bits, int count) {
   const bool scratch = spec.array.ports > 1 && random() % 2 == 0;
   const Programs programs(spec.array.ports);
   const Layout layout{bits, scratch};
-  const std::vector<Step> steps = random_stream(random, programs, layout, std::max(spec.array.width, spec.array.height), count);
+  const std::vector<Step> steps =
+      random_stream(random, programs, layout, std::max(spec.array.width, spec.array.height), count);
   Scenario scenario;
   scenario.spec = spec;
   for (const auto& [name, program] : programs.all())
@@ -76,7 +78,9 @@ Scenario hulls(std::uint64_t seed, const Spec& spec, unsigned bits, int count) {
   return scenario;
 }
 
-TEST(PixelPlanesLockstep, RandomProgramsAreEqualAtCycleAndClockedInEveryBitAndClock) { for_seeds(1000, 300, random_programs); }
+TEST(PixelPlanesLockstep, RandomProgramsAreEqualAtCycleAndClockedInEveryBitAndClock) {
+  for_seeds(1000, 300, random_programs);
+}
 
 TEST(PixelPlanesLockstep, ShippedProgramsOnRandomHullsAreEqualForRandomParameters) {
   for_seeds(500000, 60, [](std::uint64_t seed) {
@@ -175,7 +179,8 @@ TEST(PixelPlanesLockstep, AProgramThatIsOverwrittenUnderItsCommandIsRefusedByCyc
       const bool refused = !waits && word < 100;
       expect_errors(scenario,
                     refused ? "word " + std::to_string(word) +
-                                  " of the control store is written while a command that runs it is not done: what comes out "
+                                  " of the control store is written while a command that runs it is not "
+                                  "done: what comes out "
                                   "shows at level clocked only"
                             : "",
                     "");
