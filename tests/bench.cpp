@@ -95,13 +95,12 @@ void pixel_planes_at_clocked(benchmark::State& state) {
   pixel_planes::Spec spec;
   spec.setup_clocks = 0;
   spec.host.word_ps = 1;
-  sc_core::sc_set_time_resolution(1, sc_core::SC_PS);
-  pixel_planes::ClockedEngine machine("bench", spec, {});
+  const std::unique_ptr<Machine> machine = pixel_planes::make_clocked(spec, {});
   igc::Header header;
   header.fraction = 10;
   header.expression = true;
   for (auto _ : state)
-    machine.simulate([&](HostPort& host) {
+    machine->run([&](HostPort& host) {
       for (std::uint32_t i = 0; i < 2 * program.size(); ++i)
         host.write(i, static_cast<std::uint32_t>(igc::pack(program[i / 2]) >> (i % 2 * 32)), 0);
       for (std::uint32_t plane = 0; plane < 10000; ++plane) {
@@ -110,8 +109,8 @@ void pixel_planes_at_clocked(benchmark::State& state) {
         host.dma_to(pixel_planes::kFifo, words, 4, 0);
       }
     });
-  state.SetItemsProcessed(machine.clocks());
-  state.counters["busy"] = static_cast<double>(machine.controller_counters().busy) / static_cast<double>(machine.clocks());
+  state.SetItemsProcessed(machine->cycles());
+  state.counters["busy"] = static_cast<double>(machine->instructions()) / static_cast<double>(machine->cycles());
 }
 BENCHMARK(pixel_planes_at_clocked)->Iterations(1)->Unit(benchmark::kMillisecond);
 

@@ -99,7 +99,7 @@ std::vector<RowGroup> fg86_time_groups() {
               "FG86-K9: seen along a two-fold axis, 16 planes scanned; passes 0 to 4, without loading"),
         claim("FG86-A10", "load of one separate program", "s", 4.5,
               "\"several seconds\": 2 to 7 s, the middle shown"),
-        claim("FG86-A38", "the icosahedron's distance from real time", "1", 720.0,
+        claim("FG86-A38a", "the icosahedron's distance from real time", "1", 720.0,
               "\"several orders of magnitude\": 12 s against a frame of 1/60 s")},
        fill_picture},
       {"the same without boxing, so that every plane scans the whole box",

@@ -94,7 +94,8 @@ RunRequest request_of(const TableContext& context, const SceneRun& run) {
   arguments.scene = run.scene;
   arguments.machine = run.machine;
   arguments.level = run.level.empty() ? context.options.level : run.level;
-  arguments.settings = context.options.settings;
+  const std::string machine = run.machine.empty() ? "rds3000" : run.machine.substr(0, run.machine.find(':'));
+  arguments.settings = settings_for(context, machine);
   arguments.settings.insert(arguments.settings.end(), run.settings.begin(), run.settings.end());
   RunRequest request = prepare_run(context.catalogue, arguments);
   if (run.counted) request.options.counted = run.counted(request);
@@ -147,7 +148,7 @@ void set_metric(TableRow& row, const Propagated& p, const std::vector<Metric>& m
 
 std::vector<std::string> parameter_settings(const TableContext& context) {
   std::vector<std::string> settings;
-  for (const std::string& setting : context.options.settings)
+  for (const std::string& setting : settings_for(context, "rds3000"))
     if (is_parameter(setting)) settings.push_back(setting);
   return settings;
 }

@@ -29,10 +29,12 @@ unsigned below(Random& random, unsigned n) { return static_cast<unsigned>(random
 bool one_in(Random& random, unsigned n) { return below(random, n) == 0; }
 
 std::string in_words(const Spec& s) {
-  return fmt::format("{}x{}x{} ports {} tick {} masked {} gap {} setup {} fifo {} refresh {} video {} word {} flop {} interrupt {}",
-                     s.array.width, s.array.height, s.array.memory_bits, s.array.ports, s.tick_ps, s.tree.masked,
-                     s.tree.gap_clocks, s.setup_clocks, s.fifo_words, s.refresh_interval_ps, s.video_interval_ps,
-                     s.host.word_ps, s.host.flop_ps, s.host.interrupt_ps);
+  return fmt::format(
+      "{}x{}x{} ports {} tick {} masked {} gap {} setup {} fifo {} refresh {} video {} word {} flop {} "
+      "interrupt {}",
+      s.array.width, s.array.height, s.array.memory_bits, s.array.ports, s.tick_ps, s.tree.masked,
+      s.tree.gap_clocks, s.setup_clocks, s.fifo_words, s.refresh_interval_ps, s.video_interval_ps,
+      s.host.word_ps, s.host.flop_ps, s.host.interrupt_ps);
 }
 
 /// Everything but the pixels, as "name value".
@@ -47,32 +49,33 @@ std::vector<std::string> outcome(const Machine& machine) {
       if (name != "pixel_operations" && name != "evaluated_pixel_operations" && name != "bitwise_commands")
         lines.push_back(fmt::format("{}.{} {}", unit.unit, name, value));
   for (const Phase& phase : machine.phases())
-    lines.push_back(fmt::format("phase {} {} {}", phase.name, phase.cycles, phase.on_host ? "host" : "machine"));
+    lines.push_back(
+        fmt::format("phase {} {} {}", phase.name, phase.cycles, phase.on_host ? "host" : "machine"));
   return lines;
+}
+
+/// The error that a run ends in, or nothing.
+std::string error_of(Machine& machine, const Scenario& scenario, std::vector<std::int64_t>& seen) {
+  try {
+    machine.run([&](HostPort& host) { scenario.program(host, seen); });
+  } catch (const UserError& error) {
+    return error.what();
+  }
+  return "";
 }
 
 void run_both(const Scenario& scenario) {
   std::vector<std::int64_t> cycle_seen, clocked_seen;
   CycleMachine cycle(scenario.spec, scenario.options);
   const std::unique_ptr<Machine> clocked = make_clocked(scenario.spec, scenario.options);
-  std::string cycle_error, clocked_error;
-  try {
-    cycle.run([&](HostPort& host) { scenario.program(host, cycle_seen); });
-  } catch (const UserError& error) {
-    cycle_error = error.what();
-  }
-  try {
-    clocked->run([&](HostPort& host) { scenario.program(host, clocked_seen); });
-  } catch (const UserError& error) {
-    clocked_error = error.what();
-  }
-  ASSERT_EQ(cycle_error, clocked_error) << "cycle | clocked";
-  ASSERT_EQ(cycle_error, "");
+  ASSERT_EQ(error_of(cycle, scenario, cycle_seen), "");
+  ASSERT_EQ(error_of(*clocked, scenario, clocked_seen), "");
   ASSERT_EQ(cycle_seen, clocked_seen) << "what the host read, cycle | clocked";
   expect_same(cycle, *clocked, scenario.spec);
 }
 
-// Micro-programs -------------------------------------------------------------------------------------------------------
+// Micro-programs
+// -------------------------------------------------------------------------------------------------------
 
 class Writer {
  public:
@@ -114,14 +117,17 @@ class Writer {
   }
 
   void items(bool tree) {
-    for (unsigned n = 1 + below(random_, 3); n > 0; --n) one_in(random_, 3) ? words_.push_back(word(tree, false)) : loop(tree);
+    for (unsigned n = 1 + below(random_, 3); n > 0; --n)
+      one_in(random_, 3) ? words_.push_back(word(tree, false)) : loop(tree);
   }
 
   void loop(bool tree) {
-    static constexpr LoopCount kCounts[] = {LoopCount::kFraction, LoopCount::kGuard, LoopCount::kGuardLessOne,
-                                            LoopCount::kRegister, LoopCount::kNumber, LoopCount::kNumber};
+    static constexpr LoopCount kCounts[] = {LoopCount::kFraction,     LoopCount::kGuard,
+                                            LoopCount::kGuardLessOne, LoopCount::kRegister,
+                                            LoopCount::kNumber,       LoopCount::kNumber};
     const LoopCount count = kCounts[below(random_, 6)];
-    const std::uint8_t number = static_cast<std::uint8_t>(count == LoopCount::kRegister ? below(random_, 4) : below(random_, 14));
+    const std::uint8_t number =
+        static_cast<std::uint8_t>(count == LoopCount::kRegister ? below(random_, 4) : below(random_, 14));
     for (unsigned n = 1 + below(random_, 3); n > 0; --n) {
       MicroWord w = word(tree, true);
       w.loop = count;
@@ -143,7 +149,8 @@ class Writer {
     if (spec_.array.ports > 1 || one_in(random_, 8)) w.read_b = r & 4, w.write_b = r & 8;
     w.indexed_a = in_loop && (r & 0x30), w.indexed_b = in_loop && (r & 0xC0);
     w.register_a = below(random_, 16), w.register_b = below(random_, 16);
-    w.offset_a = static_cast<std::uint8_t>(below(random_, one_in(random_, 20) ? 256 : static_cast<unsigned>(spec_.array.memory_bits)));
+    w.offset_a = static_cast<std::uint8_t>(
+        below(random_, one_in(random_, 20) ? 256 : static_cast<unsigned>(spec_.array.memory_bits)));
     w.offset_b = static_cast<std::uint8_t>(below(random_, static_cast<unsigned>(spec_.array.memory_bits)));
     w.constant_offset = static_cast<std::uint8_t>(below(random_, 64));
     w.tree = anywhere_ ? !one_in(random_, 4) : tree;
@@ -157,8 +164,10 @@ class Writer {
 };
 
 std::uint32_t random_coefficient(Random& random) {
-  if (one_in(random, 30)) return static_cast<std::uint32_t>(random());  // also not a number, infinite, far too large
-  const double value = (static_cast<double>(random() >> 11) / 4503599627370496.0 - 1.0) * std::ldexp(1.0, static_cast<int>(below(random, 24)) - 8);
+  if (one_in(random, 30))
+    return static_cast<std::uint32_t>(random());  // also not a number, infinite, far too large
+  const double value = (static_cast<double>(random() >> 11) / 4503599627370496.0 - 1.0) *
+                       std::ldexp(1.0, static_cast<int>(below(random, 24)) - 8);
   const auto single = static_cast<float>(value);
   std::uint32_t bits;
   std::memcpy(&bits, &single, sizeof bits);
@@ -182,13 +191,15 @@ std::vector<std::uint32_t> random_command(Random& random, const std::vector<unsi
   std::vector<std::uint32_t> words{igc::pack(h)};
   if (h.expression)
     for (int i = 0; i < 3; ++i) words.push_back(random_coefficient(random));
-  for (int i = 0; i < h.constant + h.long_constant; ++i) words.push_back(static_cast<std::uint32_t>(random()));
+  for (int i = 0; i < h.constant + h.long_constant; ++i)
+    words.push_back(static_cast<std::uint32_t>(random()));
   return words;
 }
 
 void load(HostPort& host, const std::vector<std::uint64_t>& program, unsigned entry) {
   for (std::uint32_t i = 0; i < program.size(); ++i) {
-    const std::uint32_t halves[] = {static_cast<std::uint32_t>(program[i]), static_cast<std::uint32_t>(program[i] >> 32)};
+    const std::uint32_t halves[] = {static_cast<std::uint32_t>(program[i]),
+                                    static_cast<std::uint32_t>(program[i] >> 32)};
     host.dma_to(2 * (entry + i), halves, 2, 0);
   }
 }
@@ -223,7 +234,8 @@ void play(Random random, const Spec& spec, HostPort& host, std::vector<std::int6
         host.phase(one_in(random, 2) ? "first" : "second");
         break;
       case 5:
-        host.write(one_in(random, 2) ? kVideoBase : kVideoSize, one_in(random, 2) ? below(random, 80) : below(random, 70) << 16 | below(random, 70), 0);
+        host.write(one_in(random, 2) ? kVideoBase : kVideoSize,
+                   one_in(random, 2) ? below(random, 80) : below(random, 70) << 16 | below(random, 70), 0);
         break;
       default: {
         const std::vector<std::uint32_t> words = random_command(random, entries);
@@ -289,9 +301,23 @@ void expect_lockstep(const Scenario& scenario, const std::string& repeat) {
   in_child([&] { run_both(scenario); }, repeat + "\n" + in_words(scenario.spec));
 }
 
+void expect_errors(const Scenario& scenario, const std::string& cycle_says, const std::string& clocked_says) {
+  in_child(
+      [&] {
+        std::vector<std::int64_t> seen;
+        CycleMachine cycle(scenario.spec, scenario.options);
+        const std::unique_ptr<Machine> clocked = make_clocked(scenario.spec, scenario.options);
+        EXPECT_EQ(error_of(cycle, scenario, seen), cycle_says);
+        EXPECT_EQ(error_of(*clocked, scenario, seen), clocked_says);
+      },
+      cycle_says);
+}
+
 Spec random_spec(Random& random) {
   Spec s;
-  const auto any = [&](std::initializer_list<std::int64_t> values) { return values.begin()[below(random, static_cast<unsigned>(values.size()))]; };
+  const auto any = [&](std::initializer_list<std::int64_t> values) {
+    return values.begin()[below(random, static_cast<unsigned>(values.size()))];
+  };
   s.tick_ps = any({100000, 125000, 25000, 7, 99991});
   s.array.width = static_cast<int>(any({64, 64, 128}));
   s.array.height = static_cast<int>(any({64, 64, 128}));
@@ -303,11 +329,15 @@ Spec random_spec(Random& random) {
   s.setup_clocks = static_cast<int>(any({0, 1, 4, 16, 100}));
   s.fifo_words = static_cast<int>(any({8, 9, 16, 512}));
   const auto interval = [&]() -> std::int64_t {
-    return one_in(random, 3) ? 0 : 4 * s.tick_ps + static_cast<std::int64_t>(random() % static_cast<std::uint64_t>(40 * s.tick_ps));
+    return one_in(random, 3)
+               ? 0
+               : 4 * s.tick_ps +
+                     static_cast<std::int64_t>(random() % static_cast<std::uint64_t>(40 * s.tick_ps));
   };
   s.refresh_interval_ps = interval();
   s.video_interval_ps = interval();
-  s.host.word_ps = std::max<std::int64_t>(1, any({1, s.tick_ps / 10, s.tick_ps / 3, s.tick_ps, 4 * s.tick_ps, 4 * s.tick_ps + 1, 30 * s.tick_ps - 1}));
+  s.host.word_ps = std::max<std::int64_t>(1, any({1, s.tick_ps / 10, s.tick_ps / 3, s.tick_ps, 4 * s.tick_ps,
+                                                  4 * s.tick_ps + 1, 30 * s.tick_ps - 1}));
   s.host.flop_ps = std::max<std::int64_t>(1, any({s.tick_ps / 5, s.tick_ps, 5 * s.tick_ps / 3}));
   s.host.instruction_ps = s.host.flop_ps;
   s.host.program_load_ps = any({0, 300 * s.tick_ps});

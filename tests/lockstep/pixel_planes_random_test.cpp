@@ -12,7 +12,8 @@
 namespace dendro::pixel_planes {
 namespace {
 
-/// DENDRO_SEED repeats one scenario; DENDRO_PROGRAMS sets how many are tried (the long proof of `./dev test --all`).
+/// DENDRO_SEED repeats one scenario; DENDRO_PROGRAMS sets how many are tried (the long proof of `./dev test
+/// --all`).
 std::uint64_t setting(const char* name, std::uint64_t fallback) {
   const char* text = std::getenv(name);
   return text ? std::strtoull(text, nullptr, 10) : fallback;
@@ -53,7 +54,8 @@ Scenario hulls(std::uint64_t seed, const Spec& spec, unsigned bits, int count) {
   const bool scratch = spec.array.ports > 1 && random() % 2 == 0;
   const Programs programs(spec.array.ports);
   const Layout layout{bits, scratch};
-  const std::vector<Step> steps = random_stream(random, programs, layout, std::max(spec.array.width, spec.array.height), count);
+  const std::vector<Step> steps =
+      random_stream(random, programs, layout, std::max(spec.array.width, spec.array.height), count);
   Scenario scenario;
   scenario.spec = spec;
   for (const auto& [name, program] : programs.all())
@@ -76,7 +78,9 @@ Scenario hulls(std::uint64_t seed, const Spec& spec, unsigned bits, int count) {
   return scenario;
 }
 
-TEST(PixelPlanesLockstep, RandomProgramsAreEqualAtCycleAndClockedInEveryBitAndClock) { for_seeds(1000, 300, random_programs); }
+TEST(PixelPlanesLockstep, RandomProgramsAreEqualAtCycleAndClockedInEveryBitAndClock) {
+  for_seeds(1000, 300, random_programs);
+}
 
 TEST(PixelPlanesLockstep, ShippedProgramsOnRandomHullsAreEqualForRandomParameters) {
   for_seeds(500000, 60, [](std::uint64_t seed) {
@@ -123,6 +127,64 @@ TEST(PixelPlanesLockstep, EveryParameterIsEqualAtItsEnds) {
     change(spec);
     expect_lockstep(hulls(90, spec, 12, 2), name);
     if (::testing::Test::HasFatalFailure()) return;
+  }
+}
+
+TEST(PixelPlanesLockstep, ACommandThatLacksWordsIsOneErrorAtBothLevels) {
+  const std::string says = "pixel_planes: the last command lacks words, so the machine never becomes idle";
+  Scenario scenario;
+  scenario.spec.array.width = scenario.spec.array.height = 64;
+  igc::Header h;
+  h.expression = true;
+  for (const bool waits : {false, true}) {
+    scenario.program = [&](HostPort& host, std::vector<std::int64_t>&) {
+      host.write(kFifo, igc::pack(h), 0);
+      if (waits) host.wait_interrupt();
+    };
+    expect_errors(scenario, says, says);
+  }
+}
+
+TEST(PixelPlanesLockstep, AProgramThatSendsNothingIsOneErrorAtBothLevels) {
+  const std::string says = "the micro-program at word 0 sends nothing";
+  igc::MicroWord none;
+  none.loop = igc::LoopCount::kGuard;
+  none.loop_end = none.end = true;
+  Scenario scenario;
+  scenario.spec.array.width = scenario.spec.array.height = 64;
+  scenario.program = [=](HostPort& host, std::vector<std::int64_t>&) {
+    const std::uint64_t word = igc::pack(none);
+    host.write(0, static_cast<std::uint32_t>(word), 0);
+    host.write(1, static_cast<std::uint32_t>(word >> 32), 0);
+    host.write(kFifo, igc::pack(igc::Header()), 0);
+  };
+  expect_errors(scenario, says, says);
+}
+
+// A command takes effect at `cycle` when it is offered, so a program that changes under it has to be refused.
+TEST(PixelPlanesLockstep, AProgramThatIsOverwrittenUnderItsCommandIsRefusedByCycle) {
+  std::vector<igc::MicroWord> program(100);
+  program.back().end = true;
+  for (const bool waits : {false, true}) {
+    for (const unsigned word : {0u, 98u, 99u, 100u, 1023u}) {
+      Scenario scenario;
+      scenario.spec.array.width = scenario.spec.array.height = 64;
+      scenario.program = [=](HostPort& host, std::vector<std::int64_t>&) {
+        for (std::uint32_t i = 0; i < 200; ++i)
+          host.write(i, static_cast<std::uint32_t>(igc::pack(program[i / 2]) >> (i % 2 * 32)), 0);
+        host.write(kFifo, igc::pack(igc::Header()), 0);
+        if (waits) host.wait_interrupt();
+        host.write(2 * word, 0, 0);
+      };
+      const bool refused = !waits && word < 100;
+      expect_errors(scenario,
+                    refused ? "word " + std::to_string(word) +
+                                  " of the control store is written while a command that runs it is not "
+                                  "done: what comes out "
+                                  "shows at level clocked only"
+                            : "",
+                    "");
+    }
   }
 }
 

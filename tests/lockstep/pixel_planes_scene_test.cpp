@@ -1,7 +1,5 @@
 #include <gtest/gtest.h>
 
-#include <cstdlib>
-#include <sstream>
 #include <string>
 
 #include "models/machines/pixel_planes/pixel_planes.h"
@@ -14,7 +12,8 @@ namespace {
 
 using Settings = std::vector<std::string>;
 
-/// All three levels draw the scene; all bits of all pixels, and at the two with time all clocks, must be equal.
+/// All three levels draw the scene; all bits of all pixels, and at the two with time all clocks, must be
+/// equal.
 void expect_levels_equal(const std::string& scene, const Settings& settings) {
   const study::Catalogue all{{pixel_planes_type()}, study::algorithms(), SHARE};
   study::RunArguments arguments;
@@ -25,7 +24,8 @@ void expect_levels_equal(const std::string& scene, const Settings& settings) {
       [&] {
         const study::RunRequest request = study::prepare_run(all, arguments);
         const auto machine_after_run = [&](Level level) {
-          const auto job = request.algorithm->make(request.file.scene, *request.type, request.preset.parameters);
+          const auto job =
+              request.algorithm->make(request.file.scene, *request.type, request.preset.parameters);
           MachineOptions options;
           for (const FirmwareImage& image : job->firmware()) {
             const auto marks = study::marked_words(image.symbols);
@@ -49,33 +49,26 @@ void expect_levels_equal(const std::string& scene, const Settings& settings) {
 
 class Scene : public testing::TestWithParam<std::string> {};
 
-/// Those named in DENDRO_SCENES, else all that are quick enough for every run of the tests.
-std::vector<std::string> shipped_scenes() {
-  const char* named = std::getenv("DENDRO_SCENES");
-  if (named == nullptr) return {"icosahedron", "aspen-hull", "bishop-hull", "pine-hull", "crown", "figure5"};
-  std::vector<std::string> scenes;
-  std::istringstream in(named);
-  for (std::string scene; in >> scene;) scenes.push_back(scene);
-  return scenes;
-}
-
 TEST_P(Scene, IsEqualInEveryBitOfEveryPixelAndEveryClock) { expect_levels_equal(GetParam(), {}); }
 
-INSTANTIATE_TEST_SUITE_P(Shipped, Scene, testing::ValuesIn(shipped_scenes()), [](const auto& instance) {
-  std::string name = instance.param;
-  for (char& c : name)
-    if (c == '-') c = '_';
-  return name;
-});
+INSTANTIATE_TEST_SUITE_P(Shipped, Scene,
+                         testing::Values("icosahedron", "aspen-hull", "bishop-hull", "pine-hull", "crown",
+                                         "figure5", "grove"),
+                         [](const auto& instance) {
+                           std::string name = instance.param;
+                           for (char& c : name)
+                             if (c == '-') c = '_';
+                           return name;
+                         });
 
 TEST(PixelPlanesScenes, EveryVariantIsEqual) {
   const std::string quick = "parameters.host.program_load_ms=0.1";
-  for (const Settings& settings : std::vector<Settings>{
-           {quick, "half_space.colouring=\"index\"", "half_space.depth_bits=12"},
-           {quick, "half_space.variant=\"scratch\"", "parameters.array.ports=2"},
-           {quick, "parameters.tree.masked=false", "parameters.tree.gap_clocks=8"},
-           {quick, "parameters.tree.masked=false", "parameters.tree.gap_clocks=18"},
-           {quick, "parameters.array.ports=2", "parameters.array.memory_bits=96"}}) {
+  for (const Settings& settings :
+       std::vector<Settings>{{quick, "half_space.colouring=\"index\"", "half_space.depth_bits=12"},
+                             {quick, "half_space.variant=\"scratch\"", "parameters.array.ports=2"},
+                             {quick, "parameters.tree.masked=false", "parameters.tree.gap_clocks=8"},
+                             {quick, "parameters.tree.masked=false", "parameters.tree.gap_clocks=18"},
+                             {quick, "parameters.array.ports=2", "parameters.array.memory_bits=96"}}) {
     SCOPED_TRACE(settings[1]);
     expect_levels_equal("icosahedron", settings);
   }

@@ -38,6 +38,8 @@ class Tape : public HostPort {
   void wait_interrupt() override {}
   void compute(const Work&) override {}
   void phase(std::string_view) override {}
+  std::uint32_t peek(std::uint32_t, unsigned) const override { return 0; }
+  void program(std::string_view, std::uint32_t) override {}
 };
 
 const char* const kScenes[] = {"icosahedron", "pine-hull", "aspen-hull", "bishop-hull", "crown", "figure5", "grove"};

@@ -94,11 +94,13 @@ TEST(ClockedPixelPlanes, EnableAndCarryCompareTheStreamWithMemory) {
     });
     for (unsigned y = 0; y < 64; ++y)
       for (unsigned x = 0; x < 64; ++x)
-        ASSERT_EQ(rig.engine->planes().memory(20, x, y), 1100 + 9 * y < 1000 + 3 * x + 5 * y + 2 * x) << x << ", " << y;
+        ASSERT_EQ(rig.engine->planes().memory(20, x, y), 1100 + 9 * y < 1000 + 3 * x + 5 * y + 2 * x)
+            << x << ", " << y;
   });
 }
 
-// A word of a loop runs as often as its count says and sees its turn in addresses and constant; 0 turns take no time.
+// A word of a loop runs as often as its count says and sees its turn in addresses and constant; 0 turns take
+// no time.
 TEST(ClockedPixelPlanes, LoopsRunAsOftenAsTheirCountAndSkipInNoTime) {
   for (const unsigned turns : {0u, 1u, 7u}) {
     in_child([turns] {
@@ -125,8 +127,8 @@ TEST(ClockedPixelPlanes, LoopsRunAsOftenAsTheirCountAndSkipInNoTime) {
       const std::uint64_t constant = 0x35A5ull << 30;
       rig.engine->simulate([&](HostPort& host) {
         rig.load(host, p, 5);
-        rig.send(host, {register_write(2, 10), register_write(3, turns), igc::pack(h), static_cast<std::uint32_t>(constant),
-                        static_cast<std::uint32_t>(constant >> 32)});
+        rig.send(host, {register_write(2, 10), register_write(3, turns), igc::pack(h),
+                        static_cast<std::uint32_t>(constant), static_cast<std::uint32_t>(constant >> 32)});
       });
       EXPECT_EQ(rig.engine->controller_counters().busy, 2 + 2 + 2 * turns);
       for (unsigned bit = 0; bit < 32; ++bit) {
@@ -151,7 +153,8 @@ TEST(ClockedPixelPlanes, ACommandBeginsANewStreamThoughTheWordBeforeItUsedTheTre
     rig.engine->simulate([&](HostPort& host) {
       rig.load(host, store_program(1, 40));
       rig.load(host, p, 100);
-      for (const unsigned entry : {0u, 100u, 100u}) rig.send(host, plane_command(entry, static_cast<float>(entry) - 3.0f, 7, -9));
+      for (const unsigned entry : {0u, 100u, 100u})
+        rig.send(host, plane_command(entry, static_cast<float>(entry) - 3.0f, 7, -9));
     });
     for (int y = 0; y < 64; ++y)
       for (int x = 0; x < 64; ++x)
@@ -179,7 +182,8 @@ TEST(ClockedPixelPlanes, TheStoreAndTheVideoRegistersAreReadBack) {
     Rig rig(small());
     rig.engine->simulate([](HostPort& host) {
       for (const std::uint32_t address : {0u, 1u, 2047u, kVideoBase, kVideoSize}) {
-        const std::uint32_t kept = address == kVideoBase ? 0xEF : 0x89ABCDEF;  // the base has the 8 bits of an address
+        const std::uint32_t kept =
+            address == kVideoBase ? 0xEF : 0x89ABCDEF;  // the base has the 8 bits of an address
         host.write(address, 0x89ABCDEF, 0);
         EXPECT_EQ(host.read(address, 0), kept);
         host.compute({0, 10, 0});
@@ -196,7 +200,8 @@ TEST(ClockedPixelPlanes, TheWaveformShowsWordsAndTheirEffectAsManyClocksBehindAs
   in_child([] {
     MachineOptions options;
     options.vcd_file =
-        (std::filesystem::path(::testing::TempDir()) / ("pixel_planes" + std::to_string(getpid()) + ".vcd")).string();
+        (std::filesystem::path(::testing::TempDir()) / ("pixel_planes" + std::to_string(getpid()) + ".vcd"))
+            .string();
     Rig rig(small(), options);
     rig.engine->simulate([&](HostPort& host) {
       rig.load(host, store_program(4));
@@ -223,8 +228,8 @@ TEST(ClockedPixelPlanes, TheWaveformShowsWordsAndTheirEffectAsManyClocksBehindAs
       }
     }
     std::filesystem::remove(options.vcd_file);
-    // 10 words of program, 4 of the command: the last is taken in 57, ready in 62. The first word of the program sets
-    // E in clock 62 + 12, seen before clock 75; the stream begins with the word of clock 63.
+    // 10 words of program, 4 of the command: the last is taken in 57, ready in 62. The first word of the
+    // program sets E in clock 62 + 12, seen before clock 75; the stream begins with the word of clock 63.
     EXPECT_EQ(first_one.at("function"), 74);
     EXPECT_EQ(first_one.at("enabled_pixels"), 75);
     EXPECT_EQ(first_one.at("c"), 63);

@@ -14,7 +14,8 @@
 #include "models/machines/pixel_planes/clocked.h"
 #include "models/machines/pixel_planes/pixel_planes_map.h"
 
-/// What the tests of the clocked Pixel-Planes share: a small machine, hand-assembled programs, one simulation per child process.
+/// What the tests of the clocked Pixel-Planes share: a small machine, hand-assembled programs, one simulation
+/// per child process.
 namespace dendro::pixel_planes {
 
 /// 64 x 64 pixels of 32 bits, 10 MHz, no stolen clocks, a host that sends a word every 4 clocks.
@@ -58,7 +59,8 @@ inline std::uint32_t single(float value) {
   return bits;
 }
 
-inline std::vector<std::uint32_t> plane_command(unsigned entry, float a, float b, float c, unsigned fraction = 0) {
+inline std::vector<std::uint32_t> plane_command(unsigned entry, float a, float b, float c,
+                                                unsigned fraction = 0) {
   igc::Header h;
   h.entry = entry;
   h.fraction = fraction;
@@ -123,7 +125,8 @@ inline void in_child(const std::function<void()>& body) {
   }
   int status = 0;
   ASSERT_EQ(waitpid(child, &status, 0), child);
-  EXPECT_TRUE(WIFEXITED(status) && WEXITSTATUS(status) == 0) << "the test's process failed; its messages are above";
+  EXPECT_TRUE(WIFEXITED(status) && WEXITSTATUS(status) == 0)
+      << "the test's process failed; its messages are above";
 }
 
 }  // namespace dendro::pixel_planes

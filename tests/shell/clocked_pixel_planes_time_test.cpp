@@ -17,8 +17,8 @@ void expect_counters(const Rig& rig, const ControllerCounters& want) {
   EXPECT_EQ(rig.total(), static_cast<std::uint64_t>(rig.engine->clocks()));
 }
 
-// The word is offered at 4 ticks, lands in clock 4, is taken in clock 5 and goes out as an idle word in clock 6, which takes
-// effect in clock 18.
+// The word is offered at 4 ticks, lands in clock 4, is taken in clock 5 and goes out as an idle word in clock
+// 6, which takes effect in clock 18.
 TEST(ClockedPixelPlanesTime, ARegisterWriteIsOneWordBehindTheClockOfItsHeader) {
   in_child([] {
     Rig rig(small());
@@ -28,7 +28,8 @@ TEST(ClockedPixelPlanesTime, ARegisterWriteIsOneWordBehindTheClockOfItsHeader) {
   });
 }
 
-// The program's word takes 8 clocks to load, the command's words land in 12, 16, 20, 24; the last is taken in clock 25.
+// The program's word takes 8 clocks to load, the command's words land in 12, 16, 20, 24; the last is taken in
+// clock 25.
 TEST(ClockedPixelPlanesTime, AnExpressionIsSetUpBehindItsLastWord) {
   for (const int setup : {0, 1, 4, 16}) {
     in_child([setup] {
@@ -58,7 +59,8 @@ TEST(ClockedPixelPlanesTime, CommandsThatWaitFollowEachOtherWithoutAGap) {
       rig.load(host, store_program(10, 60));
       for (int i = 0; i < 3; ++i) rig.send(host, plane_command(0, 1, 1, 1));
     });
-    // 60 idle words, 1, 10, 1: longer than the 21 clocks that the next command needs, so there is no waiting between.
+    // 60 idle words, 1, 10, 1: longer than the 21 clocks that the next command needs, so there is no waiting
+    // between.
     const std::uint64_t each = 72;
     EXPECT_EQ(rig.engine->controller_counters().busy, 3 * each + 2 * 12);
     EXPECT_EQ(rig.engine->fifo_counters().commands, 5u);
@@ -78,8 +80,8 @@ TEST(ClockedPixelPlanesTime, StolenClocksStopControllerTreeAndArrayButNotTheTran
         rig.load(host, store_program(16));
         rig.send(host, plane_command(0, 3, -5, 100));
       });
-      // 10 words of program and 4 of the command take 56 clocks; the last is taken in clock 57, ready in 62. 18 words
-      // and 12 clocks of tree: without stealing idle from clock 92.
+      // 10 words of program and 4 of the command take 56 clocks; the last is taken in clock 57, ready in 62.
+      // 18 words and 12 clocks of tree: without stealing idle from clock 92.
       EXPECT_EQ(rig.engine->clocks(), steals ? 92 + 2 : 92);
       const ControllerCounters& c = rig.engine->controller_counters();
       EXPECT_EQ(c.busy, 18u);
@@ -102,7 +104,8 @@ TEST(ClockedPixelPlanesTime, AStolenClockIsAStallOfItsThiefOnlyWhileACommandRuns
       rig.send(host, plane_command(0, 3, -5, 100));
       host.compute({600, 0, 0});
     });
-    // Ready in clock 40 * 8 + 40 + 56 + 1 + 5 = 382 and then 58 words: counted by hand with the rule of stolen clocks.
+    // Ready in clock 40 * 8 + 40 + 56 + 1 + 5 = 382 and then 58 words: counted by hand with the rule of
+    // stolen clocks.
     std::int64_t next_refresh = 7, next_video = 5, sent = 0, refresh = 0, video = 0;
     std::vector<char> queue;
     for (std::int64_t n = 0; sent < 58; ++n) {
@@ -137,8 +140,8 @@ TEST(ClockedPixelPlanesTime, AFullFifoHoldsTheHostUntilTheClockInWhichItsWordLan
         after.push_back(now_ps());
       }
     });
-    // Lands in 0; taken in 1, so room at the beginning of 2; the translator holds its command until it is taken in 2 and
-    // takes the next header in 3: one word in two clocks. In the other clock it is full.
+    // Lands in 0; taken in 1, so room at the beginning of 2; the translator holds its command until it is
+    // taken in 2 and takes the next header in 3: one word in two clocks. In the other clock it is full.
     EXPECT_EQ(after, (std::vector<std::int64_t>{1, 200000, 400000, 600000, 800000}));
     EXPECT_EQ(rig.engine->fifo_counters().full_clocks, 4u);
   });
@@ -184,7 +187,8 @@ TEST(ClockedPixelPlanesTime, TheInterruptComesBehindIdleOrBehindTheCall) {
   });
 }
 
-// Every picosecond of a clock as the time of the call, the last one included, in which the engine works the clock out.
+// Every picosecond of a clock as the time of the call, the last one included, in which the engine works the
+// clock out.
 TEST(ClockedPixelPlanesTime, ItDoesNotMatterInWhichPicosecondOfAClockTheHostCalls) {
   for (const std::int64_t offset : {0, 1, 50000, 99998, 99999}) {
     in_child([offset] {

@@ -15,7 +15,8 @@ sc_core::sc_time ps(std::int64_t t) { return sc_core::sc_time::from_value(static
 
 igc::PlanesSpec planes_of(const Spec& spec) {
   igc::PlanesSpec planes;
-  planes.levels_x = static_cast<unsigned>(spec.levels_x()), planes.levels_y = static_cast<unsigned>(spec.levels_y());
+  planes.levels_x = static_cast<unsigned>(spec.levels_x()),
+  planes.levels_y = static_cast<unsigned>(spec.levels_y());
   planes.memory_bits = static_cast<unsigned>(spec.array.memory_bits);
   planes.ports = static_cast<unsigned>(spec.array.ports);
   planes.masked = spec.tree.masked;
@@ -95,7 +96,8 @@ ClockedCause ClockedEngine::steal(std::int64_t n) {
   while (next_refresh_ps_ <= now_ps || next_video_ps_ <= now_ps) {
     const bool refresh = next_refresh_ps_ <= next_video_ps_;
     steals_.push_back(refresh ? ClockedCause::kRefresh : ClockedCause::kVideo);
-    (refresh ? next_refresh_ps_ : next_video_ps_) += refresh ? spec_.refresh_interval_ps : spec_.video_interval_ps;
+    (refresh ? next_refresh_ps_ : next_video_ps_) +=
+        refresh ? spec_.refresh_interval_ps : spec_.video_interval_ps;
   }
   if (steals_.empty()) return ClockedCause::kBusy;
   const ClockedCause thief = steals_.front();
@@ -140,7 +142,8 @@ void ClockedEngine::move_array(std::int64_t n, bool ready) {
   if (!controller_.running() && ready) {
     const unsigned entry = translator_.command().header.entry;
     if (!controller_.take(translator_.command()))
-      error_ = std::make_exception_ptr(UserError(fmt::format("the micro-program at word {} sends nothing", entry)));
+      error_ = std::make_exception_ptr(
+          UserError(fmt::format("the micro-program at word {} sends nothing", entry)));
     translator_.taken();
     ++fifo_counters_.commands;
     book(controller_.command().header, n);
@@ -184,7 +187,8 @@ void ClockedEngine::watch_limit(std::int64_t n) {
 void ClockedEngine::after_clock() {
   const bool idle = idle_now();
   if (!error_ && (host_waits_for_idle_ || host_ended_) && cannot_become_idle())
-    error_ = std::make_exception_ptr(UserError("pixel_planes: the last command lacks words, so the machine never becomes idle"));
+    error_ = std::make_exception_ptr(
+        UserError("pixel_planes: the last command lacks words, so the machine never becomes idle"));
   const bool over = host_ended_ && idle && next_clock_ * tick_ps_ >= host_end_ps_;
   if (over || error_) {
     stopped_ = true;
@@ -193,12 +197,11 @@ void ClockedEngine::after_clock() {
   }
   const sc_core::sc_time to_next = ps(next_clock_ * tick_ps_ - now_in_ps());
   if (host_waits_for_idle_ && idle) idle_event_.notify(to_next);
-  if (host_waits_for_room_ && fifo_.size() < static_cast<std::size_t>(spec_.fifo_words)) room_event_.notify(to_next);
+  if (host_waits_for_room_ && fifo_.size() < static_cast<std::size_t>(spec_.fifo_words))
+    room_event_.notify(to_next);
 }
 
-bool ClockedEngine::idle_now() const {
-  return fifo_.empty() && behind_fifo_idle();
-}
+bool ClockedEngine::idle_now() const { return fifo_.empty() && behind_fifo_idle(); }
 
 bool ClockedEngine::behind_fifo_idle() const {
   return translator_.idle() && !controller_.running() && words_on_their_way_ == 0;

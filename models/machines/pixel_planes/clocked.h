@@ -21,12 +21,12 @@ namespace dendro::pixel_planes {
 /// What a clock was used for; the order of the waveform.
 enum class ClockedCause : std::uint8_t { kBusy, kRefresh, kVideo, kTranslator, kDrain, kIdle };
 
-/// Level `clocked`: every clock is a SystemC event in which FIFO, translator, controller, tree and array move on by one.
-/// Written from the data sheets alone, as the referee of `cycle`. SystemC's time resolution must be 1 ps before it is
-/// made.
+/// Level `clocked`: every clock is a SystemC event in which FIFO, translator, controller, tree and array move
+/// on by one. Written from the data sheets alone, as the referee of `cycle`. SystemC's time resolution must
+/// be 1 ps before it is made.
 ///
-/// Clock n is worked out 1 ps before it ends, from the state at its beginning; what the host does carries its clock, so
-/// it does not matter which of the two comes first in that picosecond.
+/// Clock n is worked out 1 ps before it ends, from the state at its beginning; what the host does carries its
+/// clock, so it does not matter which of the two comes first in that picosecond.
 class ClockedEngine : public sc_core::sc_module, public HostPort {
  public:
   /// A named stretch of the host's program, from the first clock on that begins at or behind its call.
@@ -58,6 +58,8 @@ class ClockedEngine : public sc_core::sc_module, public HostPort {
   void wait_interrupt() override;
   void compute(const Work& work) override;
   void phase(std::string_view name) override;
+  std::uint32_t peek(std::uint32_t address, unsigned function) const override;
+  void program(std::string_view, std::uint32_t) override {}
 
   std::int64_t clocks() const { return next_clock_; }
   std::int64_t host_busy_ps() const { return host_busy_ps_; }
@@ -115,7 +117,7 @@ class ClockedEngine : public sc_core::sc_module, public HostPort {
   ClockedTranslator translator_;
   ClockedController controller_;
   igc::TreeFeed feed_;
-  igc::ClockedPlanes planes_;
+  mutable igc::ClockedPlanes planes_;  // reading works out clocks that wait
   std::vector<OnItsWay> way_;  ///< control words in the delay that equals the tree's
   std::size_t way_at_ = 0;
   unsigned words_on_their_way_ = 0;
@@ -124,8 +126,8 @@ class ClockedEngine : public sc_core::sc_module, public HostPort {
   VideoState video_;
 
   std::int64_t next_clock_ = 0;
-  bool idle_before_ = true;        ///< at the beginning of clock next_clock_ - 1
-  std::size_t fifo_before_ = 0;    ///< words there then
+  bool idle_before_ = true;      ///< at the beginning of clock next_clock_ - 1
+  std::size_t fifo_before_ = 0;  ///< words there then
 
   std::function<void(HostPort&)> program_;
   std::deque<Write> writes_;

@@ -16,7 +16,8 @@ std::int64_t translate(std::uint32_t single, unsigned fraction) {
   std::memcpy(&coefficient, &single, sizeof coefficient);
   if (std::isnan(coefficient)) return 0;
   // Exact in double; the host rounds to nearest, ties to even, as IEEE 754 has it by default.
-  const double scaled = std::nearbyint(std::ldexp(static_cast<double>(coefficient), static_cast<int>(fraction)));
+  const double scaled =
+      std::nearbyint(std::ldexp(static_cast<double>(coefficient), static_cast<int>(fraction)));
   constexpr std::int64_t kMost = std::int64_t{1} << 62;
   if (scaled >= static_cast<double>(kMost)) return kMost;
   if (scaled <= -static_cast<double>(kMost)) return -kMost;
@@ -109,8 +110,8 @@ unsigned ClockedController::turns_of(const MicroWord& word) const {
   return 1;
 }
 
-/// Skips loops of no turn from address_ on and enters the loop that stands there. False: the program has ended in one
-/// that was skipped.
+/// Skips loops of no turn from address_ on and enters the loop that stands there. False: the program has
+/// ended in one that was skipped.
 bool ClockedController::settle() {
   bool skipping = false;
   for (unsigned looked = 0; looked < igc::kStoreWords; ++looked) {

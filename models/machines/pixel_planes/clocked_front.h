@@ -7,7 +7,8 @@
 
 #include "models/parts/igc/igc_isa.h"
 
-/// FIFO, translator and controller of a clocked Pixel-Planes, one clock at a time; rules in models/parts/igc/README.md.
+/// FIFO, translator and controller of a clocked Pixel-Planes, one clock at a time; rules in
+/// models/parts/igc/README.md.
 namespace dendro::pixel_planes {
 
 /// Command words, each with the clock in which it landed: it is there from the beginning of the next.
@@ -67,14 +68,15 @@ class ClockedController {
   struct Sent {
     igc::ArrayWord word;
     bool starts_stream = false;
-    bool from_store = false;   ///< not the idle word of a register write
-    unsigned address = 0;      ///< of the word in the control store
+    bool from_store = false;  ///< not the idle word of a register write
+    unsigned address = 0;     ///< of the word in the control store
   };
 
   explicit ClockedController(int gap_clocks) : gap_(static_cast<unsigned>(gap_clocks)) {}
 
   bool running() const { return running_; }
-  /// When not running; send() of the same clock gives the command's first word. False: the program sends nothing.
+  /// When not running; send() of the same clock gives the command's first word. False: the program sends
+  /// nothing.
   bool take(const igc::Command& command);
   /// One clock that is not stolen, running.
   Sent send();
@@ -84,7 +86,9 @@ class ClockedController {
   void abandon() { running_ = false; }
 
   /// Words of the control store, two halves each.
-  std::uint32_t half(std::uint32_t index) const { return static_cast<std::uint32_t>(store_[index / 2] >> (index % 2 * 32)); }
+  std::uint32_t half(std::uint32_t index) const {
+    return static_cast<std::uint32_t>(store_[index / 2] >> (index % 2 * 32));
+  }
   void set_half(std::uint32_t index, std::uint32_t value);
 
   const igc::Command& command() const { return command_; }

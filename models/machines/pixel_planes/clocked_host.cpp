@@ -35,8 +35,8 @@ void ClockedEngine::own_time(std::int64_t ps) {
 
 std::int64_t ClockedEngine::clock_now() const { return now_in_ps() / tick_ps_; }
 
-// In the last picosecond of a clock the engine may have worked it out already; then what was true at the clock's
-// beginning is remembered.
+// In the last picosecond of a clock the engine may have worked it out already; then what was true at the
+// clock's beginning is remembered.
 bool ClockedEngine::idle_at(std::int64_t clock) const {
   if (clock == next_clock_) return idle_now();
   DENDRO_CHECK(clock == next_clock_ - 1, "clock {}, next is {}", clock, next_clock_);
@@ -94,7 +94,8 @@ std::uint32_t ClockedEngine::load(std::uint32_t address) {
     return idle_at(clock_now()) ? 0 : 1;
   }
   if (address == kVideoBase) return video_.base;
-  if (address == kVideoSize) return static_cast<std::uint32_t>(video_.width) | static_cast<std::uint32_t>(video_.height) << 16;
+  if (address == kVideoSize)
+    return static_cast<std::uint32_t>(video_.width) | static_cast<std::uint32_t>(video_.height) << 16;
   return 0;
 }
 
@@ -116,7 +117,8 @@ void ClockedEngine::dma_to(std::uint32_t address, const std::uint32_t* words, st
   }
 }
 
-void ClockedEngine::dma_from(std::uint32_t address, std::uint32_t* words, std::size_t count, unsigned, std::uint32_t step) {
+void ClockedEngine::dma_from(std::uint32_t address, std::uint32_t* words, std::size_t count, unsigned,
+                             std::uint32_t step) {
   for (std::size_t i = 0; i < count; ++i) {
     own_time(spec_.host.word_ps);
     words[i] = load(address + static_cast<std::uint32_t>(i) * step);
@@ -146,6 +148,14 @@ void ClockedEngine::compute(const Work& work) {
            static_cast<std::int64_t>(work.program_loads) * spec_.host.program_load_ps);
 }
 
-void ClockedEngine::phase(std::string_view name) { phases_.push_back({std::string(name), (now_in_ps() + tick_ps_ - 1) / tick_ps_}); }
+void ClockedEngine::phase(std::string_view name) {
+  phases_.push_back({std::string(name), (now_in_ps() + tick_ps_ - 1) / tick_ps_});
+}
+
+std::uint32_t ClockedEngine::peek(std::uint32_t address, unsigned function) const {
+  const auto width = static_cast<std::uint32_t>(spec_.array.width);
+  if (address >= static_cast<std::uint32_t>(spec_.pixels())) return 0;
+  return planes_.memory_word(function, address % width, address / width);
+}
 
 }  // namespace dendro::pixel_planes

@@ -70,18 +70,25 @@ std::vector<UnitStats> ClockedMachine::units() const {
   const std::uint64_t host_busy =
       std::min(total, static_cast<std::uint64_t>(engine_->host_busy_ps() / spec_.tick_ps));
   return {{"pixel_planes.controller",
-           {{"cycles", total}, {"busy", c.busy}, {"stall_refresh", c.stall_refresh}, {"stall_video", c.stall_video},
-            {"stall_translator", c.stall_translator}, {"stall_drain", c.stall_drain}, {"idle", c.idle},
+           {{"cycles", total},
+            {"busy", c.busy},
+            {"stall_refresh", c.stall_refresh},
+            {"stall_video", c.stall_video},
+            {"stall_translator", c.stall_translator},
+            {"stall_drain", c.stall_drain},
+            {"idle", c.idle},
             {"commands", f.commands}}},
           {"pixel_planes.array", {{"cycles", total}, {"busy", c.busy}, {"idle", total - c.busy}}},
-          {"pixel_planes.host", {{"cycles", total}, {"busy", host_busy}, {"idle", total - host_busy}, {"fifo_words", f.words},
+          {"pixel_planes.host",
+           {{"cycles", total},
+            {"busy", host_busy},
+            {"idle", total - host_busy},
+            {"fifo_words", f.words},
             {"fifo_full_clocks", f.full_clocks}}}};
 }
 
 std::uint32_t ClockedMachine::peek(std::uint32_t address, unsigned function) const {
-  const auto width = static_cast<std::uint32_t>(spec_.array.width);
-  if (address >= static_cast<std::uint32_t>(spec_.pixels())) return 0;
-  return engine_->planes().memory_word(function, address % width, address / width);
+  return engine_->peek(address, function);
 }
 
 Picture ClockedMachine::picture() const {

@@ -74,7 +74,8 @@ void ClockedVcd::after(ClockedCause cause) {
   writer_.set(y_, static_cast<std::uint64_t>(w.y));
   writer_.set(data_, static_cast<std::uint64_t>(w.data));
   writer_.set(source_, static_cast<std::uint64_t>(w.source));
-  writer_.set(ports_, (w.read_a ? 1u : 0) | (w.write_a ? 2u : 0) | (w.read_b ? 4u : 0) | (w.write_b ? 8u : 0));
+  writer_.set(ports_,
+              (w.read_a ? 1u : 0) | (w.write_a ? 2u : 0) | (w.read_b ? 4u : 0) | (w.write_b ? 8u : 0));
   writer_.set(address_a_, w.address_a);
   writer_.set(address_b_, w.address_b);
   writer_.set(uses_tree_, w.tree);

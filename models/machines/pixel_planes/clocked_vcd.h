@@ -10,8 +10,8 @@ namespace dendro::pixel_planes {
 class ClockedEngine;
 enum class ClockedCause : std::uint8_t;
 
-/// The waveform of a clocked Pixel-Planes. At the time of clock n stand the registers as they were before it and the
-/// signals during it. Units: host, translator, controller, tree, array.
+/// The waveform of a clocked Pixel-Planes. At the time of clock n stand the registers as they were before it
+/// and the signals during it. Units: host, translator, controller, tree, array.
 class ClockedVcd {
  public:
   /// Throws UserError for a file that cannot be written, an unknown unit or an empty window.

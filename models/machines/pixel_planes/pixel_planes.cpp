@@ -27,9 +27,13 @@ class FunctionPort : public HostPort {
     for (std::size_t i = 0; i < count; ++i) words[i] = device_.read(address + static_cast<std::uint32_t>(i) * step);
   }
   void command(std::uint32_t) override {}
-  void wait_interrupt() override {}
+  void wait_interrupt() override {
+    if (device_.lacks_words()) throw Device::never_idle();
+  }
   void compute(const Work&) override {}
   void phase(std::string_view) override {}
+  std::uint32_t peek(std::uint32_t address, unsigned function) const override { return device_.peek(address, function); }
+  void program(std::string_view, std::uint32_t) override {}
 
   std::uint64_t words() const { return words_; }
 
@@ -42,7 +46,10 @@ class FunctionMachine : public Machine {
  public:
   explicit FunctionMachine(const Spec& spec) : spec_(spec), device_(spec, true), port_(device_) {}
 
-  void run(const std::function<void(HostPort&)>& host_program) override { host_program(port_); }
+  void run(const std::function<void(HostPort&)>& host_program) override {
+    host_program(port_);
+    if (device_.lacks_words()) throw Device::never_idle();
+  }
   double clock_hz() const override { return 1e12 / static_cast<double>(spec_.tick_ps); }
   std::int64_t cycles() const override { return 0; }
   std::int64_t machine_cycles() const override { return 0; }

@@ -19,7 +19,8 @@ void ClockedArray::clock(const ArrayWord& word, const std::uint64_t* leaves) {
   planes.write_b = plane(port_b && word.write_b, word.address_b);
   planes.enable = enable_.data(), planes.carry = carry_.data(), planes.data = data_.data();
   planes.words = enable_.size();
-  const bool nothing = word.function == Function::kHold && word.data == DataOp::kHold && !planes.write_a && !planes.write_b;
+  const bool nothing =
+      word.function == Function::kHold && word.data == DataOp::kHold && !planes.write_a && !planes.write_b;
   if (!nothing) clock_pixels(planes, word);
 }
 

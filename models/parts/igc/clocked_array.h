@@ -8,7 +8,8 @@
 
 namespace dendro::igc {
 
-/// The pixels behind a tree: E, C, D and memory of each, in the order of the tree's leaves. One broadcast word a clock.
+/// The pixels behind a tree: E, C, D and memory of each, in the order of the tree's leaves. One broadcast
+/// word a clock.
 class ClockedArray {
  public:
   /// `words` of 64 pixels each. All bits are 0.

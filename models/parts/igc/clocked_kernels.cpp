@@ -142,10 +142,13 @@ HWY_ATTR void write_where(const Word* source, const Word* enable, Word* to, std:
 }
 
 bool changes_enable(Function function) {
-  return function == Function::kSetEnable || function == Function::kAndCarry || function == Function::kAndNotCarry;
+  return function == Function::kSetEnable || function == Function::kAndCarry ||
+         function == Function::kAndNotCarry;
 }
 /// Nothing that a word does changes these.
-bool constant_in_a_clock(Operand x) { return x == Operand::kZero || x == Operand::kOne || x == Operand::kTree; }
+bool constant_in_a_clock(Operand x) {
+  return x == Operand::kZero || x == Operand::kOne || x == Operand::kTree;
+}
 
 HWY_ATTR void block_of(const PixelClock& p, const ArrayWord& word, std::size_t first, std::size_t n) {
   alignas(64) static const Word zeros[kBlock] = {};
@@ -168,8 +171,8 @@ HWY_ATTR void block_of(const PixelClock& p, const ArrayWord& word, std::size_t f
         return zeros;
     }
   };
-  const Operands o{operand(word.x),   operand(word.y), plane(p.tree), plane(p.read_a), p.enable + first,
-                   p.carry + first, p.data + first};
+  const Operands o{operand(word.x),  operand(word.y), plane(p.tree), plane(p.read_a),
+                   p.enable + first, p.carry + first, p.data + first};
   // Memory is written last, with source and E of before, so that all else still sees the memory of before.
   const bool writes = p.write_a || p.write_b;
   const Word *source = worked_out, *enable = o.enable;
@@ -208,7 +211,9 @@ HWY_EXPORT(PixelStep);
 HWY_EXPORT(TargetName);
 
 void clock_level(const LevelClock& level) { HWY_DYNAMIC_DISPATCH(LevelStep)(level); }
-void clock_pixels(const PixelClock& planes, const ArrayWord& word) { HWY_DYNAMIC_DISPATCH(PixelStep)(planes, word); }
+void clock_pixels(const PixelClock& planes, const ArrayWord& word) {
+  HWY_DYNAMIC_DISPATCH(PixelStep)(planes, word);
+}
 const char* vector_target() { return HWY_DYNAMIC_DISPATCH(TargetName)(); }
 
 }  // namespace dendro::igc

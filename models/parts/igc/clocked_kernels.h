@@ -7,7 +7,8 @@
 
 #include "models/parts/igc/igc_isa.h"
 
-/// What the nodes of a tree's level and the pixels do in one clock, 64 of them in a word. Vectors of the host, chosen at run time.
+/// What the nodes of a tree's level and the pixels do in one clock, 64 of them in a word. Vectors of the
+/// host, chosen at run time.
 namespace dendro::igc {
 
 /// Memory that begins with a whole line of the host's cache: vectors that straddle two cost twice.
@@ -27,9 +28,9 @@ struct LineAllocator {
 /// One bit of every node or pixel.
 using BitPlane = std::vector<std::uint64_t, LineAllocator<std::uint64_t>>;
 
-/// One level of the tree. Row r of the `rows` of inputs, `row_words` each, has its children in rows 2r and 2r + 1 of `out`:
-/// first the input itself, then the sum of input, coefficient and carry, whose carry is kept. With `clear` the carry
-/// counts as 0 before.
+/// One level of the tree. Row r of the `rows` of inputs, `row_words` each, has its children in rows 2r and 2r
+/// + 1 of `out`: first the input itself, then the sum of input, coefficient and carry, whose carry is kept.
+/// With `clear` the carry counts as 0 before.
 struct LevelClock {
   const std::uint64_t* in;
   std::uint64_t *out, *carry;
@@ -38,7 +39,8 @@ struct LevelClock {
 };
 void clock_level(const LevelClock& level);
 
-/// The planes that a word works on. nullptr: a port that is not read, not written, or beyond the memory; no tree bit.
+/// The planes that a word works on. nullptr: a port that is not read, not written, or beyond the memory; no
+/// tree bit.
 struct PixelClock {
   const std::uint64_t *tree, *read_a, *read_b;
   std::uint64_t *write_a, *write_b;

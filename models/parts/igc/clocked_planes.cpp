@@ -5,7 +5,7 @@
 namespace dendro::igc {
 namespace {
 
-constexpr unsigned kChipLevels = 6;           // 64 rows: what a clock touches of them fits the host's nearest memory
+constexpr unsigned kChipLevels = 6;  // 64 rows: what a clock touches of them fits the host's nearest memory
 constexpr std::size_t kGatheredClocks = 64;
 
 }  // namespace
@@ -21,7 +21,8 @@ ClockedPlanes::ClockedPlanes(const PlanesSpec& spec)
       inputs_(kGatheredClocks, BitPlane(chips_ * x_.row_words())) {
   const std::size_t row = x_.row_words();
   for (std::size_t c = 0; c < chips_; ++c)
-    chip_.push_back({TreeOfY(chip_levels_, 1, row), ClockedArray(row << chip_levels_, spec.memory_bits, spec.ports)});
+    chip_.push_back(
+        {TreeOfY(chip_levels_, 1, row), ClockedArray(row << chip_levels_, spec.memory_bits, spec.ports)});
   for (unsigned x = 0; x < 1u << spec.levels_x; ++x) leaf_in_row_.push_back(leaf_of(spec.levels_x, x, 0));
   for (Clock& clock : clocks_) clock.bits.resize(chip_levels_);
 }

@@ -15,13 +15,15 @@ struct PlanesSpec {
   bool masked = true;
 };
 
-/// Tree and pixels of a whole machine. Nothing of them goes back to the controller, so clocks are gathered and then worked
-/// out a chip at a time: a chip is the lower levels of Y above some rows, and these rows' pixels.
+/// Tree and pixels of a whole machine. Nothing of them goes back to the controller, so clocks are gathered
+/// and then worked out a chip at a time: a chip is the lower levels of Y above some rows, and these rows'
+/// pixels.
 class ClockedPlanes {
  public:
   explicit ClockedPlanes(const PlanesSpec& spec);
 
-  /// One clock: `lines` enter the tree, all pixels obey `word` with the bits that the tree gives them in this clock.
+  /// One clock: `lines` enter the tree, all pixels obey `word` with the bits that the tree gives them in this
+  /// clock.
   void clock(const TreeLines& lines, const ArrayWord& word);
 
   /// State after all clocks so far.

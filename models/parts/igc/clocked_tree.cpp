@@ -12,7 +12,8 @@ constexpr unsigned kWordLevels = 6;  // from this level on nodes fill whole word
 
 }  // namespace
 
-TreeFeed::TreeFeed(unsigned skew_a, unsigned skew_b, unsigned gap) : gap_(gap), delay_a_(skew_a), delay_b_(skew_b) {}
+TreeFeed::TreeFeed(unsigned skew_a, unsigned skew_b, unsigned gap)
+    : gap_(gap), delay_a_(skew_a), delay_b_(skew_b) {}
 
 void TreeFeed::start(std::int64_t a, std::int64_t b, std::int64_t c) {
   a_ = a, b_ = b, c_ = c;
@@ -98,7 +99,8 @@ void TreeOfX::clock(bool c, const LevelBits* bits) {
   }
 }
 
-TreeOfY::TreeOfY(unsigned levels, std::size_t rows, std::size_t row_words) : rows_(rows), row_words_(row_words) {
+TreeOfY::TreeOfY(unsigned levels, std::size_t rows, std::size_t row_words)
+    : rows_(rows), row_words_(row_words) {
   for (unsigned l = 0; l < levels; ++l) {
     carries_.emplace_back(row_words * rows << l);
     outputs_.emplace_back(row_words * rows << (l + 1));
@@ -108,8 +110,8 @@ TreeOfY::TreeOfY(unsigned levels, std::size_t rows, std::size_t row_words) : row
 void TreeOfY::clock(const std::uint64_t* input, const LevelBits* bits) {
   for (std::size_t l = carries_.size(); l-- > 0;) {
     const std::uint64_t* const in = l == 0 ? input : outputs_[l - 1].data();
-    clock_level(
-        {in, outputs_[l].data(), carries_[l].data(), rows_ << l, row_words_, bits[l].coefficient, bits[l].clear});
+    clock_level({in, outputs_[l].data(), carries_[l].data(), rows_ << l, row_words_, bits[l].coefficient,
+                 bits[l].clear});
   }
 }
 

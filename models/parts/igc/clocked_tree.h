@@ -6,12 +6,12 @@
 
 #include "models/parts/igc/clocked_kernels.h"
 
-/// The tree of nodes that gives every pixel A x + B y + C, clock by clock, and the lines that feed it. Time is counted in
-/// clocks that are not stolen.
+/// The tree of nodes that gives every pixel A x + B y + C, clock by clock, and the lines that feed it. Time
+/// is counted in clocks that are not stolen.
 ///
-/// A node has two children: the left one is its input one clock later, the right one the sum of input and coefficient,
-/// one clock later, with the carry kept in the node. Levels of X come first and take the A line, then those of Y with
-/// the B line; each axis begins with its highest address bit.
+/// A node has two children: the left one is its input one clock later, the right one the sum of input and
+/// coefficient, one clock later, with the carry kept in the node. Levels of X come first and take the A line,
+/// then those of Y with the B line; each axis begins with its highest address bit.
 namespace dendro::igc {
 
 /// What enters the tree in a clock.
@@ -22,7 +22,8 @@ struct TreeLines {
   bool clear = false;  ///< with C's bit: the carries are 0 before it
 };
 
-/// Makes the lines' bits from coefficients: C at once, A and B behind it by their skews. Before the first stream: zeros.
+/// Makes the lines' bits from coefficients: C at once, A and B behind it by their skews. Before the first
+/// stream: zeros.
 class TreeFeed {
  public:
   /// Skews in clocks; `gap`: leading zeros of every stream.
@@ -52,8 +53,8 @@ struct LevelBits {
   bool coefficient = false, clear = false;
 };
 
-/// The tokens that go down the tree with a stream. With `masked` a level takes its line's bit only while the line is in
-/// the same stream as the level's own inputs.
+/// The tokens that go down the tree with a stream. With `masked` a level takes its line's bit only while the
+/// line is in the same stream as the level's own inputs.
 class TreeTokens {
  public:
   TreeTokens(unsigned levels_x, unsigned levels_y, bool masked);
@@ -69,8 +70,8 @@ class TreeTokens {
   std::vector<LevelBits> bits_;
 };
 
-/// The nodes of X. A level's node has its children at its own number and at that plus the level's number of nodes, so
-/// pixel x comes out at its address with the bits reversed.
+/// The nodes of X. A level's node has its children at its own number and at that plus the level's number of
+/// nodes, so pixel x comes out at its address with the bits reversed.
 class TreeOfX {
  public:
   explicit TreeOfX(unsigned levels);

@@ -21,12 +21,18 @@ struct Pixel {
     const bool a = at(w.read_a, w.address_a), b = at(ports > 1 && w.read_b, w.address_b);
     const auto operand = [&](Operand o) {
       switch (o) {
-        case Operand::kOne: return true;
-        case Operand::kTree: return t;
-        case Operand::kPortA: return a;
-        case Operand::kPortB: return b;
-        case Operand::kData: return d;
-        default: return false;
+        case Operand::kOne:
+          return true;
+        case Operand::kTree:
+          return t;
+        case Operand::kPortA:
+          return a;
+        case Operand::kPortB:
+          return b;
+        case Operand::kData:
+          return d;
+        default:
+          return false;
       }
     };
     const bool x = operand(w.x), y = operand(w.y);
@@ -38,21 +44,45 @@ struct Pixel {
                                                            : t;
     Pixel next = *this;
     switch (w.function) {
-      case Function::kSetEnable: next.e = true; break;
-      case Function::kAndCarry: next.e = e && c; break;
-      case Function::kAndNotCarry: next.e = e && !c; break;
-      case Function::kLoad: next.c = x; break;
-      case Function::kBorrow: next.c = difference < 0; break;
-      case Function::kCarry: next.c = sum >= 2; break;
-      case Function::kEqual: next.c = c && x == y; break;
-      default: break;
+      case Function::kSetEnable:
+        next.e = true;
+        break;
+      case Function::kAndCarry:
+        next.e = e && c;
+        break;
+      case Function::kAndNotCarry:
+        next.e = e && !c;
+        break;
+      case Function::kLoad:
+        next.c = x;
+        break;
+      case Function::kBorrow:
+        next.c = difference < 0;
+        break;
+      case Function::kCarry:
+        next.c = sum >= 2;
+        break;
+      case Function::kEqual:
+        next.c = c && x == y;
+        break;
+      default:
+        break;
     }
     switch (w.data) {
-      case DataOp::kClear: next.d = false; break;
-      case DataOp::kTree: next.d = t; break;
-      case DataOp::kOrTree: next.d = d || t; break;
-      case DataOp::kPortA: next.d = a; break;
-      default: break;
+      case DataOp::kClear:
+        next.d = false;
+        break;
+      case DataOp::kTree:
+        next.d = t;
+        break;
+      case DataOp::kOrTree:
+        next.d = d || t;
+        break;
+      case DataOp::kPortA:
+        next.d = a;
+        break;
+      default:
+        break;
     }
     if (e && w.write_a && w.address_a < m.size()) next.m[w.address_a] = source;
     if (e && ports > 1 && w.write_b && w.address_b < m.size()) next.m[w.address_b] = source;
@@ -70,7 +100,8 @@ class Pair {
   void clock(const ArrayWord& w, std::mt19937_64& random) {
     for (std::uint64_t& l : leaves_) l = random();
     array_.clock(w, leaves_.data());
-    for (std::size_t p = 0; p < pixels_.size(); ++p) pixels_[p].clock(w, leaves_[p / 64] >> p % 64 & 1, ports_);
+    for (std::size_t p = 0; p < pixels_.size(); ++p)
+      pixels_[p].clock(w, leaves_[p / 64] >> p % 64 & 1, ports_);
   }
   /// Fills E, C, D and the memory with noise, by words of the array itself.
   void stir(std::mt19937_64& random) {
@@ -137,8 +168,8 @@ TEST(ClockedArray, EveryWordDoesInEveryStateWhatTheFourStepsSay) {
               w.address_a = r >> 8 & 7, w.address_b = r >> 16 & 7;
               if (done++ % 16 == 0) pair.stir(random);
               pair.clock(w, random);
-              ASSERT_EQ(pair.differences(), 0u) << "function " << f << " x " << x << " y " << y << " data " << d << " source " << s
-                                                << " r " << r << " ports " << ports;
+              ASSERT_EQ(pair.differences(), 0u) << "function " << f << " x " << x << " y " << y << " data "
+                                                << d << " source " << s << " r " << r << " ports " << ports;
             }
   }
 }

@@ -12,7 +12,8 @@ namespace {
 
 using Wide = __int128;
 
-/// A stream as a test sends it: coefficients, bits of T that are looked at, clocks behind it without a stream.
+/// A stream as a test sends it: coefficients, bits of T that are looked at, clocks behind it without a
+/// stream.
 struct Stream {
   std::int64_t a = 0, b = 0, c = 0;
   unsigned bits = 0, pause = 1;
@@ -26,7 +27,9 @@ struct Rules {
   int spoil_a = 0, spoil_b = 0;  ///< added to the skews
 
   unsigned skew_a() const { return static_cast<unsigned>(static_cast<int>(levels_x) - 1 + spoil_a); }
-  unsigned skew_b() const { return static_cast<unsigned>(static_cast<int>(levels_x + levels_y) - 1 + spoil_b); }
+  unsigned skew_b() const {
+    return static_cast<unsigned>(static_cast<int>(levels_x + levels_y) - 1 + spoil_b);
+  }
 };
 
 Wide value_of(const Stream& s, unsigned x, unsigned y) { return Wide{s.a} * x + Wide{s.b} * y + s.c; }
@@ -35,7 +38,8 @@ Wide value_of(const Stream& s, unsigned x, unsigned y) { return Wide{s.a} * x + 
 std::uint64_t wrong_bits(const Rules& setup, const std::vector<Stream>& streams) {
   TreeFeed feed(setup.skew_a(), setup.skew_b(), setup.gap);
   ClockedTree tree(setup.levels_x, setup.levels_y, setup.masked);
-  const unsigned width = 1u << setup.levels_x, height = 1u << setup.levels_y, latency = setup.levels_x + setup.levels_y;
+  const unsigned width = 1u << setup.levels_x, height = 1u << setup.levels_y,
+                 latency = setup.levels_x + setup.levels_y;
   std::vector<std::size_t> leaves;
   for (unsigned y = 0; y < height; ++y)
     for (unsigned x = 0; x < width; ++x) leaves.push_back(leaf_of(setup.levels_x, x, y));
@@ -76,9 +80,12 @@ std::uint64_t wrong_bits(const Rules& setup, const std::vector<Stream>& streams)
   return wrong;
 }
 
-std::vector<Stream> random_streams(std::uint64_t seed, int count, unsigned bits, unsigned shortest_pause = 0) {
+std::vector<Stream> random_streams(std::uint64_t seed, int count, unsigned bits,
+                                   unsigned shortest_pause = 0) {
   std::mt19937_64 random(seed);
-  const auto coefficient = [&] { return static_cast<std::int64_t>(random()) >> (63 - bits + random() % bits); };
+  const auto coefficient = [&] {
+    return static_cast<std::int64_t>(random()) >> (63 - bits + random() % bits);
+  };
   std::vector<Stream> streams;
   for (int i = 0; i < count; ++i) {
     Stream s{coefficient(), coefficient(), coefficient(), 0, 0};
@@ -91,7 +98,8 @@ std::vector<Stream> random_streams(std::uint64_t seed, int count, unsigned bits,
 
 TEST(ClockedTree, EveryLeafIsTheExactIntegerForRandomCoefficientsAndCorners) {
   std::vector<Stream> streams = random_streams(1, 20, 40);
-  for (const std::int64_t one : {std::int64_t{0}, std::int64_t{1}, std::int64_t{-1}, (std::int64_t{1} << 39) - 1, -(std::int64_t{1} << 39)})
+  for (const std::int64_t one : {std::int64_t{0}, std::int64_t{1}, std::int64_t{-1},
+                                 (std::int64_t{1} << 39) - 1, -(std::int64_t{1} << 39)})
     for (const std::int64_t two : {std::int64_t{0}, std::int64_t{1}, std::int64_t{-1}})
       for (int which = 0; which < 3; ++which)
         streams.push_back({which == 0 ? one : two, which == 1 ? one : two, which == 2 ? one : -two, 60, 0});
@@ -110,7 +118,9 @@ TEST(ClockedTree, FiveHundredAndTwelveSquaredGivesExactIntegers) {
 
 TEST(ClockedTree, CoefficientsOfSixtyFourBitsRepeatTheirSign) {
   const std::int64_t most = std::int64_t{1} << 62;
-  EXPECT_EQ(wrong_bits({6, 6}, {{most, most, most, 80, 1}, {-most, -most, -most, 80, 1}, {-1, most, -most, 90, 1}}), 0u);
+  EXPECT_EQ(
+      wrong_bits({6, 6}, {{most, most, most, 80, 1}, {-most, -most, -most, 80, 1}, {-1, most, -most, 90, 1}}),
+      0u);
 }
 
 TEST(ClockedTree, MaskedStreamsMayTouchHoweverShortTheyAre) {
@@ -141,7 +151,8 @@ TEST(ClockedTree, LeadingZerosOfAMaskedStreamAreZeros) {
   for (int i = 0; i < 40; ++i) tree.clock(feed.clock());
   feed.start(-1, -1, -1);
   for (unsigned n = 0; n < 16; ++n) {
-    for (std::size_t w = 0; n >= 12 && w < tree.words(); ++w) ASSERT_EQ(tree.leaves()[w], 0u) << "clock " << n;
+    for (std::size_t w = 0; n >= 12 && w < tree.words(); ++w)
+      ASSERT_EQ(tree.leaves()[w], 0u) << "clock " << n;
     tree.clock(feed.clock());
   }
 }
