@@ -20,8 +20,8 @@ struct Site {
   unsigned pixel_bits = 24;
 };
 
-/// The job that draws `scene` with the microprogram. Throws UserError for everything that prepare() or check_fits()
-/// refuse.
+/// The job that draws `scene` with the microprogram. Throws UserError for everything that prepare() or
+/// check_fits() refuse.
 std::unique_ptr<Job> make_job(const scene::Scene& scene, ProgramImage image, const Site& site = {});
 
 /// The job that draws `scene`, one hull or more, with the microprogram for three registers (hulls.gia).
@@ -30,8 +30,10 @@ std::unique_ptr<Job> make_hulls_job(const scene::Scene& scene, ProgramImage imag
 /// A microprogram of this folder, assembled for the machine at hand, by its name: "hulls", "roughen", ...
 using ProgramSource = std::function<ProgramImage(const std::string& name)>;
 
-/// The job that draws `scene`, complete trees with texture, roughness or trunks. Asks only for programs that it needs.
-std::unique_ptr<Job> make_tree_job(const scene::Scene& scene, const ProgramSource& program, const Site& site = {});
+/// The job that draws `scene`, complete trees with texture, roughness or trunks. Asks only for programs that
+/// it needs.
+std::unique_ptr<Job> make_tree_job(const scene::Scene& scene, const ProgramSource& program,
+                                   const Site& site = {});
 
 /// True when the scene takes make_tree_job. Throws UserError.
 bool is_complete_tree(const scene::Scene& scene);

@@ -59,7 +59,8 @@ class TreeJob : public Job {
 
   std::vector<FirmwareImage> firmware() const override {
     std::vector<FirmwareImage> images;
-    for (const ProgramImage* image : {&programs_.hulls, &programs_.roughen, &programs_.texture, &programs_.colour})
+    for (const ProgramImage* image :
+         {&programs_.hulls, &programs_.roughen, &programs_.texture, &programs_.colour})
       if (!image->words.empty()) images.push_back({image->name, image->sha256, image->symbols});
     return images;
   }
@@ -101,7 +102,8 @@ class TreeJob : public Job {
 
 }  // namespace
 
-std::unique_ptr<Job> make_tree_job(const scene::Scene& scene, const ProgramSource& program, const Site& site) {
+std::unique_ptr<Job> make_tree_job(const scene::Scene& scene, const ProgramSource& program,
+                                   const Site& site) {
   return std::make_unique<TreeJob>(scene, program, site);
 }
 

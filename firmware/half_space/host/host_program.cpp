@@ -75,6 +75,17 @@ std::vector<std::uint32_t> look_up_table(const std::vector<Rgb>& shades) {
   return table;
 }
 
+void compute_set_up(HostPort& host, const Work& growth, std::uint64_t setup_flops, std::string_view set_up) {
+  if (growth.flops > 0) {
+    host.phase("grow");
+    host.compute(growth);
+  }
+  host.phase(set_up);
+  Work work;
+  work.flops = setup_flops;
+  host.compute(work);
+}
+
 void run(HostPort& host, const Prepared& prepared, const ProgramImage& image, bool repeat_field) {
   RdsDriver driver(host);
   const PlaneProgram& program = prepared.program;
@@ -82,15 +93,7 @@ void run(HostPort& host, const Prepared& prepared, const ProgramImage& image, bo
   host.phase("load_program");
   driver.load_program(image);
 
-  if (prepared.growth.flops > 0) {
-    host.phase("grow");
-    host.compute(prepared.growth);
-  }
-
-  host.phase("load_planes");
-  Work work;
-  work.flops = prepared.setup_flops;
-  host.compute(work);
+  compute_set_up(host, prepared.growth, prepared.setup_flops, "load_planes");
   driver.write_scratch(image.scratch.at("box").address, box_words(program.box));
   const ScratchArea& params = image.scratch.at("params");
   driver.write_scratch(params.address, params_of(program, params.size));

@@ -27,6 +27,9 @@ void check_records(const PlaneProgram& program, const ProgramImage& image, std::
 /// The words of the scratch area `box`.
 std::vector<std::uint32_t> box_words(const Box& box);
 
+/// The host's arithmetic before the first plane is sent: grows (phase "grow"), then sets up (phase `set_up`).
+void compute_set_up(HostPort& host, const Work& growth, std::uint64_t setup_flops, std::string_view set_up);
+
 /// The words of the look-up table: entry f of every 256 the shade of face f, 8 bits widened to 10.
 std::vector<std::uint32_t> look_up_table(const std::vector<Rgb>& shades);
 

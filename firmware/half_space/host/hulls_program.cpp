@@ -72,22 +72,11 @@ void check_fits(const PreparedHulls& prepared, const lib::ProgramImage& image, s
   for (const Trunk& trunk : prepared.trunks) check(trunk.hull);
 }
 
-void compute_set_up(HostPort& host, const PreparedHulls& prepared) {
-  if (prepared.growth.flops > 0) {
-    host.phase("grow");
-    host.compute(prepared.growth);
-  }
-  host.phase("set_up");
-  Work work;
-  work.flops = prepared.setup_flops;
-  host.compute(work);
-}
-
 void run(HostPort& host, const PreparedHulls& prepared, const lib::ProgramImage& image, bool repeat_field) {
   lib::RdsDriver driver(host);
   host.phase("load_program");
   driver.load_program(image);
-  compute_set_up(host, prepared);
+  compute_set_up(host, prepared.growth, prepared.setup_flops, "set_up");
   host.phase("load_tables");
   driver.write_look_up_table(look_up_table(prepared.shades));
   driver.show_byte(kNearestLow);

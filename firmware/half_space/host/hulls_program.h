@@ -9,7 +9,8 @@
 namespace dendro::half_space {
 
 /// Throws UserError unless the microprogram has the scratch areas `box`, `params` and `records`, and the
-/// records of every hull and trunk fit between `records` and the end of `scratch_words`. `where` is the scene's.
+/// records of every hull and trunk fit between `records` and the end of `scratch_words`. `where` is the
+/// scene's.
 void check_fits(const PreparedHulls& prepared, const lib::ProgramImage& image, std::uint32_t scratch_words,
                 const scene::Where& where);
 
@@ -43,9 +44,6 @@ class HullsDriver {
   const lib::ProgramImage& image_;
   std::uint32_t entry_;
 };
-
-/// The host's arithmetic before the first hull: grows and sets up.
-void compute_set_up(HostPort& host, const PreparedHulls& prepared);
 
 /// What the VAX does: one program load, nearest cleared, then the hulls one after another: records, start,
 /// wait. `repeat_field`: see RdsDriver::set_viewport.

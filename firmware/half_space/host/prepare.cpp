@@ -41,9 +41,8 @@ class Preparation {
     const Extent extent = extent_of(planes, view_);
     check_extent(object, planes, extent, options_);
     if (!options_.has("depth_range")) result_.setup_flops += extent.flops;
-    result_.screen =
-        to_screen(result_.world, view_, scene_.image.height / scene_.camera.height,
-                  read_depth_map(options_, extent.nearest, extent.farthest, settings.maxdepth));
+    result_.screen = to_screen(result_.world, view_, scene_.image.height / scene_.camera.height,
+                               read_depth_map(options_, extent.nearest, extent.farthest, settings.maxdepth));
     std::optional<PlaneProgram> program =
         make_program(scene_.image, settings, result_.screen, extent, true, result_.setup_flops);
     if (!program) blame(object, "the object lies outside the picture");
@@ -59,8 +58,9 @@ class Preparation {
     const auto faces = std::count_if(result_.screen.begin(), result_.screen.end(),
                                      [](const ScreenPlane& p) { return p.kind == PlaneKind::kFront; });
     if (faces > kLargestFaces)
-      blame(scene_.objects[0], fmt::format("{} front faces are more than the {} that a face number can tell apart",
-                                           faces, kLargestFaces));
+      blame(scene_.objects[0],
+            fmt::format("{} front faces are more than the {} that a face number can tell apart", faces,
+                        kLargestFaces));
   }
 
   void make_shades() {

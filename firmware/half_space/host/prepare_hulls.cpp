@@ -115,8 +115,8 @@ class HullsPreparation {
     Hull hull;
     hull.bounded = extent.bounded;
     if (extent.has_depth())
-      hull.depth_extent = std::min<double>((extent.farthest - extent.nearest) * result_.depth.scale,
-                                           result_.maxdepth);
+      hull.depth_extent =
+          std::min<double>((extent.farthest - extent.nearest) * result_.depth.scale, result_.maxdepth);
     hull.screen = to_screen(planes.planes, result_.view, result_.pixels_per_metre, result_.depth);
     if (keep_from_screen) hull.screen.push_back({0, 0, -1, 1, PlaneKind::kFront, 0});
     // No bits are left for a face number.
@@ -139,8 +139,8 @@ class HullsPreparation {
     trunk.depth = placed.depth;
     trunk.painter = placed.kind == TrunkKind::kPainter;
     if (trunk.painter) {
-      const auto trapezium = trapezium_of(placed.shape, result_.view, result_.pixels_per_metre, result_.width,
-                                          result_.height);
+      const auto trapezium =
+          trapezium_of(placed.shape, result_.view, result_.pixels_per_metre, result_.width, result_.height);
       trunk.hull.visible = trapezium.has_value();
       if (trapezium) trunk.trapezium = *trapezium;
     } else {

@@ -53,16 +53,16 @@ struct PreparedHulls {
 /// True when the picture takes the program with three registers: more than one hull, or `registers = 3`.
 bool needs_three_registers(const scene::Scene& scene);
 
-/// True when the picture has what only complete trees have: a texture, roughness or a trunk. Throws UserError when
-/// it is asked for in two registers.
+/// True when the picture has what only complete trees have: a texture, roughness or a trunk. Throws UserError
+/// when it is asked for in two registers.
 bool is_complete_tree(const scene::Scene& scene);
 
 /// Steps S1, S2 and S4 for all objects of the scene. Throws UserError for everything that the algorithm or
 /// the frame buffer cannot do.
 PreparedHulls prepare_hulls(const scene::Scene& scene);
 
-/// The same for crowns and trunks of a complete tree: no crown comes nearer than depth 1. Options that have to do with
-/// neither hulls nor trunks, and the shades, are left to the caller.
+/// The same for crowns and trunks of a complete tree: no crown comes nearer than depth 1. Options that have
+/// to do with neither hulls nor trunks, and the shades, are left to the caller.
 PreparedHulls prepare_crowns(const scene::Scene& scene, scene::Options& options);
 
 /// Reads what the look-up table makes of depth. All 24 bits are depth, so depth is what colour can come from.

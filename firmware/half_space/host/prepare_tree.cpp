@@ -45,8 +45,9 @@ PreparedTree prepare_tree(const scene::Scene& scene, unsigned pixel_bits) {
 
   if (tree.rough())
     for (const Hull& hull : hulls.hulls) {
-      tree.roughenings.push_back(make_roughening(tree.roughen, hull.depth_extent, hull.program.box, hulls.maxdepth,
-                                                 scene.seed, kCrownStream + tree.roughenings.size()));
+      tree.roughenings.push_back(make_roughening(tree.roughen, hull.depth_extent, hull.program.box,
+                                                 hulls.maxdepth, scene.seed,
+                                                 kCrownStream + tree.roughenings.size()));
       hulls.setup_flops += kFlopsRoughening;
     }
   if (tree.textured()) {

@@ -24,8 +24,8 @@ struct PreparedTree {
   bool rough() const { return roughen.roughness > 0; }
 };
 
-/// Steps S1, S2, S4 and what S8 to S11 need. `pixel_bits`: of the machine's frame buffer. Throws UserError for
-/// everything that the algorithm or the frame buffer cannot do.
+/// Steps S1, S2, S4 and what S8 to S11 need. `pixel_bits`: of the machine's frame buffer. Throws UserError
+/// for everything that the algorithm or the frame buffer cannot do.
 PreparedTree prepare_tree(const scene::Scene& scene, unsigned pixel_bits);
 
 }  // namespace dendro::half_space

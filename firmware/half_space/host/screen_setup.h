@@ -26,7 +26,7 @@ constexpr std::uint64_t kFlopsShade = 3 + 2 + 2;       // n·L, ambient + diffus
 constexpr std::uint64_t kFlopsProjectVertex = 18;      // 3x3 product and shift
 constexpr std::uint64_t kFlopsSideOfPlane = 6;
 constexpr std::uint64_t kFlopsCutEdge = 10;
-constexpr std::uint64_t kFlopsTrunkSize = 2 + 2 + 1;  // f / (f + z), and width, height and half of the width by it
+constexpr std::uint64_t kFlopsTrunkSize = 2 + 2 + 1;  // f / (f + z), width and height by it, half the width
 
 /// register = scale · metres along the view + shift
 struct DepthMap {

@@ -103,7 +103,7 @@ TextureSettings read_texture(scene::Options& options, const scene::Image& image,
   settings.from_host = options.choice("texture_from", "machine", {"machine", "host"}) == "host";
   settings.bits = static_cast<unsigned>(options.integer("cube_bits", 5, 4, 8));
   const std::string layout = options.choice("layout", "auto", {"auto", "wide", "half"});
-  const bool fourth_byte = pixel_bits >= 32;
+  const bool fourth_byte = pixel_bits == 32;  // 48 bits are two words of 24 (DEV-034)
   settings.wide = layout == "auto" ? fourth_byte : layout == "wide";
   settings.seed = static_cast<std::uint64_t>(
       options.integer("texture_seed", static_cast<std::int64_t>(scene_seed), 0, INT64_MAX));
@@ -116,7 +116,7 @@ TextureSettings read_texture(scene::Options& options, const scene::Image& image,
   if (settings.kind == TextureKind::kNone) return settings;
   if (settings.wide && !fourth_byte)
     options.fail("layout",
-                 fmt::format("\"wide\" keeps the texture cube in the pixels' fourth byte; this machine's "
+                 fmt::format("\"wide\" keeps the texture cube in the fourth byte of 32-bit pixels; this machine's "
                              "have {} bits",
                              pixel_bits));
   check_place(settings, options, image);

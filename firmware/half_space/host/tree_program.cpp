@@ -112,7 +112,7 @@ class TreeRun {
 void run(HostPort& host, const PreparedTree& tree, const TreePrograms& programs, const CubeBytes& cube,
          const TreeSite& site, const std::function<void()>& before_colour) {
   TreeRun run(host, tree, programs, site);
-  compute_set_up(host, tree.hulls);
+  compute_set_up(host, tree.hulls.growth, tree.hulls.setup_flops, "set_up");
   if (tree.textured()) run.make_texture(cube);
   run.show(site.repeat_field);
   run.draw_crowns();

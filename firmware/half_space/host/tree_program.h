@@ -19,9 +19,10 @@ struct TreeSite {
   bool repeat_field = false;  ///< see RdsDriver::set_viewport
 };
 
-/// What the VAX does for a complete tree: the cube is made, or `cube`, made beforehand, is sent; each crown is
-/// scanned, roughened and merged; then come the trunks, the nearest first; then colour replaces depth. A program is
-/// loaded when it is not in the control store. `before_colour` is called when the nearest register is complete.
+/// What the VAX does for a complete tree: the cube is made, or `cube`, made beforehand, is sent; each crown
+/// is scanned, roughened and merged; then come the trunks, the nearest first; then colour replaces depth. A
+/// program is loaded when it is not in the control store. `before_colour` is called when the nearest register
+/// is complete.
 void run(HostPort& host, const PreparedTree& tree, const TreePrograms& programs, const CubeBytes& cube,
          const TreeSite& site, const std::function<void()>& before_colour);
 

@@ -13,9 +13,9 @@
 namespace dendro::half_space {
 namespace {
 
-constexpr int kSides = 6;                                // [FG86 6.2]
-constexpr double kLargestEdge = 16000;                   // pixels: twice that still fits 16.16
-const double kApothem = std::sqrt(3.0) / 2;              // of a hexagon whose corners are 1 from its centre
+constexpr int kSides = 6;                    // [FG86 6.2]
+constexpr double kLargestEdge = 16000;       // pixels: twice that still fits 16.16
+const double kApothem = std::sqrt(3.0) / 2;  // of a hexagon whose corners are 1 from its centre
 
 glm::dvec3 outward(int side) {
   const double angle = side * 360.0 / kSides;
@@ -42,7 +42,8 @@ TrunkSettings read_trunk(const scene::Object& object) {
   const bool fitted = object.groups.count("trunk") != 0;
   for (const char* key : {"trunk_width", "trunk_height"}) {
     if (!options.has(key)) continue;
-    if (settings.kind == TrunkKind::kNone) options.fail(key, "goes with trunk = \"cylinder\", \"cone\" or \"painter\"");
+    if (settings.kind == TrunkKind::kNone)
+      options.fail(key, "goes with trunk = \"cylinder\", \"cone\" or \"painter\"");
     if (fitted) options.fail(key, "goes without groups.trunk, which the trunk is fitted to");
   }
   if (fitted && settings.kind == TrunkKind::kNone)

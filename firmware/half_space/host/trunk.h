@@ -31,7 +31,8 @@ struct TrunkSettings {
 /// Throws UserError for wrong keys, sizes without a trunk, and sizes beside a mesh's own trunk.
 TrunkSettings read_trunk(const scene::Object& object);
 
-/// Where a crown stands and how large it is, metres: height along the world's y, width the mean of the others.
+/// Where a crown stands and how large it is, metres: height along the world's y, width the mean of the
+/// others.
 struct CrownSize {
   glm::dvec3 centre{};
   double width = 0, height = 0;
@@ -50,17 +51,17 @@ struct TrunkShape {
 /// `scale`: of the whole trunk, 1 for a parallel view.
 TrunkShape trunk_shape(const TrunkSettings& settings, const CrownSize& crown, double scale);
 
-/// The trunk that a mesh has of its own, from the lowest of its points to the crown's centre: the axis joins the
-/// middles of the lowest and of the highest tenth of them, the radius is their mean distance from it. Throws
-/// UserError when the points do not reach below the crown's centre.
+/// The trunk that a mesh has of its own, from the lowest of its points to the crown's centre: the axis joins
+/// the middles of the lowest and of the highest tenth of them, the radius is their mean distance from it.
+/// Throws UserError when the points do not reach below the crown's centre.
 TrunkShape fit_trunk(const std::vector<glm::dvec3>& points, const CrownSize& crown,
                      const scene::Object& object);
 
 /// kCylinder or kCone.
 scene::PlaneSet trunk_planes(TrunkKind kind, const TrunkShape& shape);
 
-/// The pixels of the lines box.y0..box.y1 whose centres lie between two lines; x in pixels on line box.y0, and what
-/// it grows by from line to line. `box` clips.
+/// The pixels of the lines box.y0..box.y1 whose centres lie between two lines; x in pixels on line box.y0,
+/// and what it grows by from line to line. `box` clips.
 struct Trapezium {
   Box box;
   double left = 0, right = 0, left_step = 0, right_step = 0;
@@ -69,8 +70,8 @@ struct Trapezium {
   std::vector<std::uint32_t> words() const;
 };
 
-/// A painter's trunk on the screen, as wide as the hexagon's corners are apart at both ends; no value when nothing of it is
-/// in the picture or it is seen from its end.
+/// A painter's trunk on the screen, as wide as the hexagon's corners are apart at both ends; no value when
+/// nothing of it is in the picture or it is seen from its end.
 std::optional<Trapezium> trapezium_of(const TrunkShape& shape, const scene::Affine& view,
                                       double pixels_per_metre, int width, int height);
 

@@ -7,8 +7,8 @@
 
 namespace dendro::half_space {
 
-/// The actions of hulls.gia on integers, plane by plane over the whole first box: what it must leave in the image
-/// memory, bit for bit, whether it boxes or not.
+/// The actions of hulls.gia on integers, plane by plane over the whole first box: what it must leave in the
+/// image memory, bit for bit, whether it boxes or not.
 class HullsModel {
  public:
   /// `before`: the memory at the start.

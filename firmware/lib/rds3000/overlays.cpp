@@ -8,8 +8,8 @@ namespace dendro::lib {
 namespace {
 
 constexpr std::uint32_t kPageWords = 4096;
-constexpr std::uint32_t kMostPages = 8;   // three bits of the entry point
-constexpr unsigned kPageLow = 12;         // of the entry point
+constexpr std::uint32_t kMostPages = 8;  // three bits of the entry point
+constexpr unsigned kPageLow = 12;        // of the entry point
 
 }  // namespace
 

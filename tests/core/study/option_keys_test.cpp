@@ -34,12 +34,13 @@ TEST_F(OptionKeys, OfEveryAlgorithmAreThoseThatItsJobReads) {
     if (std::find(algorithm.machines.begin(), algorithm.machines.end(), type.name) ==
         algorithm.machines.end())
       continue;
-    // One object and two may be drawn by different programs with keys of their own.
+    // One object, two, and one with a trunk may be drawn by different programs with keys of their own.
     std::set<std::string> read;
-    for (const int objects : {1, 2}) {
+    for (const auto& [objects, trunk] : {std::pair(1, false), {2, false}, {1, true}}) {
       std::string text = "algorithm = \"" + algorithm.name +
                          "\"\n[image]\nwidth = 8\nheight = 8\n[camera]\nheight = 4\nposition = [0, 0, 4]\n";
       for (int i = 0; i < objects; ++i) text += "[[object]]\nmesh = \"" + mesh + "\"\n";
+      if (trunk) text += "trunk = \"cone\"\n";
       SceneFile file = load_scene(write("s.toml", text), {}, all);
       file.scene.options.set(std::string(60, 'z'), {std::int64_t{1}, {}});
       std::string message = "no error";

@@ -5,7 +5,6 @@
 
 #include <random>
 
-#include "firmware/half_space/host/hulls_layout.h"
 #include "firmware/half_space/reference/hulls_fixed_point.h"
 #include "sim/base/error.h"
 #include "tests/firmware/half_space/random_hulls.h"
@@ -17,19 +16,10 @@ using namespace testing_scenes;
 
 constexpr unsigned kSeed = 7;
 
-std::vector<std::uint8_t> nearest_of(const FixedPointPicture& picture) {
-  std::vector<std::uint8_t> nearest;
-  for (const std::uint32_t word : picture.pixels)
-    nearest.push_back(static_cast<std::uint8_t>(word >> kNearestLow & kHullField));
-  return nearest;
-}
-
 ErrorReport error_of(const PreparedHulls& prepared) {
-  std::vector<std::uint8_t> rgb;
   const std::vector<std::uint8_t> nearest = nearest_of(run_hulls_fixed_point(prepared));
-  for (const std::uint8_t depth : nearest)
-    rgb.insert(rgb.end(), prepared.shades[depth].begin(), prepared.shades[depth].end());
-  return compare(render_hulls_reference(prepared), nearest, prepared.maxdepth, rgb.data());
+  return compare(render_hulls_reference(prepared), nearest, prepared.maxdepth,
+                 shown(nearest, prepared.shades).data());
 }
 
 /// The least front depth of the hulls that cover a pixel, in rationals.

@@ -19,11 +19,13 @@ constexpr std::uint32_t kControlStore = 0x800000, kScratchpad = 0x820000;
 ProgramImage adder(const std::string& name, int step) {
   tools::AssembleOptions options;
   const std::string number = std::to_string(step);
-  const tools::Ucode ucode = tools::assemble("scratch sum[1]; scratch own[1] = {" + number +
-                                                 "};\nreg t = r0;\nentry start;\nstart:\n  t = sum[0];\n  t = t + own[0];\n"
-                                                 "phase_" + name + ":\n  sum[0] = t;\n  halt;\n",
-                                             name, options)
-                                 .ucode;
+  const tools::Ucode ucode =
+      tools::assemble("scratch sum[1]; scratch own[1] = {" + number +
+                          "};\nreg t = r0;\nentry start;\nstart:\n  t = sum[0];\n  t = t + own[0];\n"
+                          "phase_" +
+                          name + ":\n  sum[0] = t;\n  halt;\n",
+                      name, options)
+          .ucode;
   ProgramImage image;
   image.name = name;
   image.words = ucode.words, image.entry = ucode.entry;
@@ -71,7 +73,8 @@ TEST(Overlays, InOnePageEachProgramIsLoadedEachTimeItComesBack) {
 }
 
 TEST(Overlays, InAsManyPagesAsProgramsEachIsLoadedOnce) {
-  const std::vector<ProgramImage> programs = {adder("a", 1), adder("b", 10), adder("c", 100), adder("d", 1000)};
+  const std::vector<ProgramImage> programs = {adder("a", 1), adder("b", 10), adder("c", 100),
+                                              adder("d", 1000)};
   Bench bench(8 * kPage);
   for (int round = 0; round < 3; ++round)
     for (std::size_t i = 0; i < programs.size(); ++i)

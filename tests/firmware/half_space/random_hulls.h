@@ -3,6 +3,7 @@
 #include <cmath>
 #include <random>
 
+#include "firmware/half_space/host/hulls_layout.h"
 #include "firmware/half_space/host/prepare_hulls.h"
 #include "tests/firmware/half_space/scenes.h"
 
@@ -15,8 +16,8 @@ struct HullShape {
   double flatness = 2000;                ///< of every third cut, which is nearly edge-on
 };
 
-/// A random closed hull around the origin: an axis box, some of its planes edge-on, cut by random planes, every
-/// third of them nearly edge-on and so steep.
+/// A random closed hull around the origin: an axis box, some of its planes edge-on, cut by random planes,
+/// every third of them nearly edge-on and so steep.
 inline scene::Object random_object(std::mt19937& random, const HullShape& shape) {
   std::normal_distribution<double> gauss;
   std::uniform_real_distribution<double> offset(shape.nearest, shape.farthest);
@@ -33,7 +34,8 @@ inline scene::Object random_object(std::mt19937& random, const HullShape& shape)
   const int more = static_cast<int>(random() % shape.cuts);
   for (int i = 0; i < more; ++i) {
     scene::PlaneEntry plane;
-    plane.normal = {gauss(random), gauss(random), i % 3 == 0 ? gauss(random) / shape.flatness : gauss(random)};
+    plane.normal = {gauss(random), gauss(random),
+                    i % 3 == 0 ? gauss(random) / shape.flatness : gauss(random)};
     plane.offset =
         offset(random) * std::sqrt(plane.normal[0] * plane.normal[0] + plane.normal[1] * plane.normal[1] +
                                    plane.normal[2] * plane.normal[2]);
@@ -49,6 +51,22 @@ inline scene::Object random_object(std::mt19937& random) {
   scene::Object object = random_object(random, HullShape{});
   object.at = at;
   return object;
+}
+
+/// The third register of every pixel.
+inline std::vector<std::uint8_t> nearest_of(const FixedPointPicture& picture) {
+  std::vector<std::uint8_t> nearest;
+  for (const std::uint32_t word : picture.pixels)
+    nearest.push_back(static_cast<std::uint8_t>(word >> kNearestLow & kHullField));
+  return nearest;
+}
+
+/// What the look-up table makes of it.
+inline std::vector<std::uint8_t> shown(const std::vector<std::uint8_t>& nearest,
+                                       const std::vector<Rgb>& shades) {
+  std::vector<std::uint8_t> rgb;
+  for (const std::uint8_t depth : nearest) rgb.insert(rgb.end(), shades[depth].begin(), shades[depth].end());
+  return rgb;
 }
 
 inline scene::Scene random_hulls(std::mt19937& random, int side, int count) {

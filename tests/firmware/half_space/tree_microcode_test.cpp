@@ -115,7 +115,8 @@ TEST_P(ActionsOf, AnEmptyHullLeavesNoBox) {
   PreparedHulls prepared = prepare_hulls(random_hulls(random_, kSide, 2));
   PlaneProgram program = prepared.hulls[0].program;
   program.boxing = true;
-  for (PlaneRecord& record : program.back) record.wide = false, record.start = record.step_x = record.step_y = 0;
+  for (PlaneRecord& record : program.back)
+    record.wide = false, record.start = record.step_x = record.step_y = 0;
   hulls_.draw(program, HullAction::kPasses);
   EXPECT_FALSE(hulls_.box_left());
   model_.passes(program);
@@ -143,7 +144,8 @@ Drawn draw(const PreparedTree& tree, const std::string& pack, std::uint32_t cont
   Counting machine(spec_of(tree.texture.wide, control_words), limited());
   const CubeBytes cube = tree.textured() ? make_texture(tree.texture) : CubeBytes{};
   Drawn drawn;
-  run(machine, tree, programs, cube, {control_words, false}, [&] { drawn.before_colour = frame_of(machine); });
+  run(machine, tree, programs, cube, {control_words, false},
+      [&] { drawn.before_colour = frame_of(machine); });
   drawn.after = frame_of(machine);
   drawn.loads = machine.loads;
   return drawn;
@@ -164,7 +166,8 @@ void expect_exact(const PreparedTree& tree, const Drawn& drawn, const std::strin
       wanted[static_cast<std::size_t>(y) * kFrame + x] |=
           hulls.pixels[static_cast<std::size_t>(y) * hulls.width + x];
   for (std::size_t p = 0; p < wanted.size(); ++p)
-    ASSERT_EQ(drawn.before_colour[p], wanted[p]) << what << " before colouring, at " << p % kFrame << "," << p / kFrame;
+    ASSERT_EQ(drawn.before_colour[p], wanted[p])
+        << what << " before colouring, at " << p % kFrame << "," << p / kFrame;
   if (!tree.textured()) return;
   colour_model(tree.colouring, wanted);
   for (std::size_t p = 0; p < wanted.size(); ++p)
@@ -187,7 +190,8 @@ TEST(TreeMicrocode, EveryWordOfTheFrameOfRandomCompleteTreesIsThatOfTheIntegerMo
     const std::string what = "seed " + std::to_string(kSeed) + " scene " + std::to_string(i);
     const Drawn drawn = draw(tree, i % 2 == 0 ? "none" : "full");
     expect_exact(tree, drawn, what);
-    for (const std::uint32_t word : run_tree_fixed_point(tree).pixels) trunk += word >> kNearestLow == kTrunkMark;
+    for (const std::uint32_t word : run_tree_fixed_point(tree).pixels)
+      trunk += word >> kNearestLow == kTrunkMark;
   }
   EXPECT_GT(trunk, 400) << "trunks should be seen";
 }
@@ -195,12 +199,14 @@ TEST(TreeMicrocode, EveryWordOfTheFrameOfRandomCompleteTreesIsThatOfTheIntegerMo
 TEST(TreeMicrocode, AGroveOfRoughCrownsNeedsALoadForEachStepUnlessTheControlStoreHoldsAll) {
   scene::Scene scene = grove(3, 96);
   scene.objects[0] = with_trunk(scene.objects[0], {{"trunk", std::string("painter")}});
-  scene = with(with(with(scene, "roughness", 0.2), "texture", std::string("chunks")), "cube_bits", std::int64_t{4});
+  scene = with(with(with(scene, "roughness", 0.2), "texture", std::string("chunks")), "cube_bits",
+               std::int64_t{4});
   const PreparedTree tree = prepare_tree(scene, 24);
   const Drawn taking_turns = draw(tree, "none"), together = draw(tree, "none", 32768);
   expect_exact(tree, taking_turns, "taking turns");
   EXPECT_EQ(taking_turns.after, together.after);
-  EXPECT_EQ(taking_turns.loads, 1u + 1 + 2 * 3 + 1) << "texture, hulls, each crown's roughening and merge, colour";
+  EXPECT_EQ(taking_turns.loads, 1u + 1 + 2 * 3 + 1)
+      << "texture, hulls, each crown's roughening and merge, colour";
   EXPECT_EQ(together.loads, 4u);
 }
 

@@ -21,7 +21,8 @@ inline scene::Scene random_tree(std::mt19937& random, const std::string& trunk, 
   scene.camera.height = 3.4;
   scene.camera.position = {1, 2, 5};
   scene.camera.target = {0, -0.4, 0};
-  scene.objects[0] = with_trunk(scene.objects[0], {{"trunk", trunk}, {"trunk_height", 1.2}, {"trunk_width", 0.2}});
+  scene.objects[0] =
+      with_trunk(scene.objects[0], {{"trunk", trunk}, {"trunk_height", 1.2}, {"trunk_width", 0.2}});
   scene.seed = random();
   return scene;
 }

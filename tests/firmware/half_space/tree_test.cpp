@@ -18,20 +18,6 @@ using namespace testing_scenes;
 
 constexpr unsigned kSeed = 57;
 
-std::vector<std::uint8_t> nearest_of(const FixedPointPicture& picture) {
-  std::vector<std::uint8_t> nearest;
-  for (const std::uint32_t word : picture.pixels)
-    nearest.push_back(static_cast<std::uint8_t>(word >> kNearestLow));
-  return nearest;
-}
-
-/// What the look-up table makes of the registers.
-std::vector<std::uint8_t> shown(const std::vector<std::uint8_t>& nearest, const std::vector<Rgb>& shades) {
-  std::vector<std::uint8_t> rgb;
-  for (const std::uint8_t depth : nearest) rgb.insert(rgb.end(), shades[depth].begin(), shades[depth].end());
-  return rgb;
-}
-
 std::string refusal(const scene::Scene& scene, unsigned pixel_bits = 24) {
   try {
     is_complete_tree(scene);
@@ -126,7 +112,8 @@ TEST(TreeReference, TexturesFollowTheRealPointAndTheColourIsTheCubeS) {
         const double metres = (reference.depth[i] - tree.hulls.depth.shift) / tree.hulls.depth.scale;
         const glm::dvec3 world =
             glm::inverse(tree.hulls.view.linear) * (glm::dvec3(x, y, metres) - tree.hulls.view.shift);
-        const glm::dvec3 texel = world * std::ldexp(tree.colour.texels_per_metre, -static_cast<int>(tree.colour.level));
+        const glm::dvec3 texel =
+            world * std::ldexp(tree.colour.texels_per_metre, -static_cast<int>(tree.colour.level));
         const auto side = 1 << tree.colouring.level.bits;
         const auto wrap = [&](double v) { return ((static_cast<int>(std::floor(v)) % side) + side) % side; };
         const std::size_t at =
@@ -139,6 +126,14 @@ TEST(TreeReference, TexturesFollowTheRealPointAndTheColourIsTheCubeS) {
   int covered = 0;
   for (const int hull : reference.hull) covered += hull >= 0;
   EXPECT_GE(crown, covered - 2) << "but for a point that lies on a texel's border";
+}
+
+TEST(PrepareTree, TheCubeTakesTheFourthByteOnlyWhereAPixelWordHasOne) {
+  const scene::Scene scene = with(one_tree(), "texture", std::string("fbm"));
+  EXPECT_FALSE(prepare_tree(scene, 24).layout.wide);
+  EXPECT_TRUE(prepare_tree(scene, 32).layout.wide);
+  EXPECT_FALSE(prepare_tree(scene, 48).layout.wide) << "two words of 24 bits";
+  EXPECT_NE(refusal(with(scene, "layout", std::string("wide")), 48).find("half_space.layout"), std::string::npos);
 }
 
 TEST(PrepareTree, OnlyTextureRoughnessAndTrunksMakeACompleteTree) {
@@ -159,8 +154,8 @@ TEST(PrepareTree, NoCrownComesAsNearAsTheMarkOfTrunksNotEvenAnOpenOne) {
   const FixedPointPicture picture = run_tree_fixed_point(tree);
   for (const std::uint32_t word : picture.pixels) ASSERT_NE(word >> kNearestLow, kTrunkMark);
   const std::vector<std::uint8_t> nearest = nearest_of(picture);
-  const ErrorReport report = compare(tree, render_tree_reference(tree, {}), {}, nearest,
-                                     shown(nearest, tree.hulls.shades).data());
+  const ErrorReport report =
+      compare(tree, render_tree_reference(tree, {}), {}, nearest, shown(nearest, tree.hulls.shades).data());
   EXPECT_EQ(extra(report, "outside_enclosure"), 0);
   EXPECT_GT(extra(report, "unbounded_share"), 0.0) << "what is open shows background and is reported";
 }
@@ -202,7 +197,8 @@ TEST(PrepareTree, AMeshsGroupsGiveCrownAndTrunk) {
   const PreparedTree tree = prepare_tree(scene, 24);
   ASSERT_EQ(tree.hulls.trunks.size(), 1u);
   EXPECT_EQ(tree.hulls.trunks[0].hull.screen.size(), 7u);
-  const int crown_bottom = tree.hulls.hulls[0].program.box.y1, trunk_bottom = tree.hulls.trunks[0].hull.program.box.y1;
+  const int crown_bottom = tree.hulls.hulls[0].program.box.y1,
+            trunk_bottom = tree.hulls.trunks[0].hull.program.box.y1;
   EXPECT_GT(trunk_bottom, crown_bottom + 20) << "the leaves end above the ground";
   scene.objects[0].groups["crown"] = "needles*";
   EXPECT_REFUSED(scene, "no group is named like crown = \"needles*\"; there are");
@@ -212,14 +208,19 @@ TEST(PrepareTree, AMeshsGroupsGiveCrownAndTrunk) {
 
 TEST(PrepareTree, WhatACompleteTreeCannotHaveIsRefused) {
   const scene::OptionValue::Array range{{3.0, {}}, {8.0, {}}};
-  EXPECT_REFUSED(with(one_tree(), "depth_bits", std::int64_t{7}), "test.toml:22: half_space.depth_bits: a complete tree takes 8");
+  EXPECT_REFUSED(with(one_tree(), "depth_bits", std::int64_t{7}),
+                 "test.toml:22: half_space.depth_bits: a complete tree takes 8");
   EXPECT_REFUSED(with(one_tree(), "depth_range", range), "half_space.depth_range: goes without trunks");
-  EXPECT_REFUSED(with(one_tree(), "registers", std::int64_t{2}), "half_space.registers: texture, roughness and trunks");
+  EXPECT_REFUSED(with(one_tree(), "registers", std::int64_t{2}),
+                 "half_space.registers: texture, roughness and trunks");
   EXPECT_REFUSED(with(one_tree(), "depth_margin", 0.0), "half_space.depth_margin");
-  EXPECT_REFUSED(with(with(icosahedron(64), "roughness", 0.1), "trunk_distance", 2.0), "no object has a trunk");
+  EXPECT_REFUSED(with(with(icosahedron(64), "roughness", 0.1), "trunk_distance", 2.0),
+                 "no object has a trunk");
   EXPECT_REFUSED(with(icosahedron(300), "texture", std::string("fbm")), "image.height: 300 lines do not fit");
-  EXPECT_REFUSED(with(with(icosahedron(64), "texture", std::string("fbm")), "cube_bits", std::int64_t{6}), "half_space.cube_bits");
-  EXPECT_REFUSED(with(with(icosahedron(64), "texture", std::string("fbm")), "layout", std::string("wide")), "half_space.layout");
+  EXPECT_REFUSED(with(with(icosahedron(64), "texture", std::string("fbm")), "cube_bits", std::int64_t{6}),
+                 "half_space.cube_bits");
+  EXPECT_REFUSED(with(with(icosahedron(64), "texture", std::string("fbm")), "layout", std::string("wide")),
+                 "half_space.layout");
   scene::Scene open = one_tree();
   open.objects[0].planes.resize(5);
   EXPECT_REFUSED(with(open, "unbounded", std::string("background")), "a trunk needs a crown that is bounded");

@@ -61,9 +61,12 @@ TEST(Trunk, AnAxisThatLeansStaysInsideItsPlanes) {
 
 TEST(Trunk, SizesAreSharesOfTheCrownAndShrinkWithTheScale) {
   ObjectPlanes crown;
-  for (const auto& [normal, offset] :
-       {std::pair(glm::dvec3(1, 0, 0), 3.0), {{-1, 0, 0}, 1.0}, {{0, 1, 0}, 6.0}, {{0, -1, 0}, -2.0},
-        {{0, 0, 1}, 1.0}, {{0, 0, -1}, 1.0}})
+  for (const auto& [normal, offset] : {std::pair(glm::dvec3(1, 0, 0), 3.0),
+                                       {{-1, 0, 0}, 1.0},
+                                       {{0, 1, 0}, 6.0},
+                                       {{0, -1, 0}, -2.0},
+                                       {{0, 0, 1}, 1.0},
+                                       {{0, 0, -1}, 1.0}})
     crown.planes.push_back({normal, offset});
   const auto size = crown_size(crown);
   ASSERT_TRUE(size);
@@ -102,7 +105,8 @@ TEST(Trunk, AMeshsOwnTrunkIsFoundAgain) {
 
 TEST(Trunk, AWordOfATrapeziumHasSixteenFractionBits) {
   Trapezium trapezium;
-  trapezium.left = 10.5, trapezium.right = 20.25, trapezium.left_step = -0.5, trapezium.right_step = 1.0 / 65536;
+  trapezium.left = 10.5, trapezium.right = 20.25, trapezium.left_step = -0.5,
+  trapezium.right_step = 1.0 / 65536;
   EXPECT_EQ(trapezium.words(), (std::vector<std::uint32_t>{0xA8000, 0x144000, 0xFFFF8000, 1}));
 }
 
@@ -125,12 +129,14 @@ TEST(Trunk, APainterSTrunkIsClippedToThePicture) {
 
 TEST(Trunk, WrongKeysAreRefused) {
   EXPECT_EQ(refusal(cube()), "");
-  EXPECT_NE(refusal(with_trunk(cube(), {{"trunk", std::string("palm")}})).find("none, cylinder, cone, painter"),
-            std::string::npos);
+  EXPECT_NE(
+      refusal(with_trunk(cube(), {{"trunk", std::string("palm")}})).find("none, cylinder, cone, painter"),
+      std::string::npos);
   EXPECT_NE(refusal(with_trunk(cube(), {{"trunk_width", 0.2}})).find("object.trunk_width: goes with trunk"),
             std::string::npos);
-  EXPECT_NE(refusal(with_trunk(cube(), {{"trunk", std::string("cone")}, {"trunk_width", -0.2}})).find("outside"),
-            std::string::npos);
+  EXPECT_NE(
+      refusal(with_trunk(cube(), {{"trunk", std::string("cone")}, {"trunk_width", -0.2}})).find("outside"),
+      std::string::npos);
   EXPECT_NE(refusal(with_trunk(cube(), {{"trunk_hight", 0.2}})).find("did you mean trunk_height?"),
             std::string::npos);
   scene::Object mesh = with_trunk(cube(), {{"trunk", std::string("cone")}, {"trunk_width", 0.2}});
