@@ -177,8 +177,7 @@ void fill_views(const TableContext& context, std::vector<TableRow>& rows) {
         sum.common, sum.near());
     row.note += rough ? "the field that roughens is fixed to the screen, so a point of the hull has another "
                         "depth in each view"
-                      : "the other view's pixel is up to half a pixel and a step of depth away, a quarter of "
-                        "a texel each";
+                      : "the other view's pixel is up to half a pixel and a step of depth away";
   }
 }
 
@@ -295,10 +294,11 @@ void fill_painter(const TableContext&, std::vector<TableRow>& rows) {
     row.assumptions = {"DEV-060"};
     row.note = fmt::format(
         "mean of {} groves of {} trees: {:.1f} trunk pixels hidden that exact trunks show, {:.1f} shown that "
-        "they hide, of {:.0f}; {}",
-        kGroves, kTrees, sum.hidden / kGroves, sum.shown / kGroves, sum.trunk / kGroves,
-        elevation < 20 ? "trunks stand before the crowns of other trees"
-                       : "what is left lies where a trunk leaves its crown within a step of depth");
+        "they hide, of {:.0f}",
+        kGroves, kTrees, sum.hidden / kGroves, sum.shown / kGroves, sum.trunk / kGroves);
+    if (sum.wrong() > 0)
+      row.note += elevation < 20 ? "; trunks stand before the crowns of other trees"
+                                 : "; these lie where a trunk leaves its crown within a step of depth";
   }
 }
 

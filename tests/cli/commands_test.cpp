@@ -188,7 +188,9 @@ TEST_F(Commands, TableHasItsRowsAndATolerance) {
   const std::string first = read("o.json");
   EXPECT_EQ(3, dendro(small + " --tolerance 0.01").status) << "from the cache, and far outside";
   EXPECT_EQ(first, read("o.json"));
-  EXPECT_EQ(0, dendro(small + " --tolerance 1e9").status);
+  EXPECT_EQ(0, dendro(small + " --tolerance 1e9 --out tab").status);
+  EXPECT_EQ(first, read("tab/table.json"));
+  EXPECT_EQ(0u, read("tab/table.png").find("\x89PNG"));
 }
 
 TEST_F(Commands, ASettingThatOnlySomeScenesTakeCostsTheTableOnlyTheRowsOfTheOthers) {

@@ -1,5 +1,6 @@
 #include "sim/study/table.h"
 
+#include "sim/study/table_picture.h"
 #include "sim/study/table_rows.h"
 #include "tests/core/study/fake_machine.h"
 
@@ -107,6 +108,33 @@ TEST(TableText, WritesCountsInFullAndTimesWithFourDigits) {
   EXPECT_NE(std::string::npos, text.find("6291456 .. 6291456")) << text;
   EXPECT_NE(std::string::npos, text.find("13.68")) << text;
   EXPECT_NE(std::string::npos, text.find("10.2 .. 23.2")) << text;
+}
+
+/// Pixels of a colour.
+int count(const scene::RgbImage& image, int red, int green, int blue) {
+  int found = 0;
+  for (std::size_t i = 0; i + 2 < image.rgb.size(); i += 3)
+    found += image.rgb[i] == red && image.rgb[i + 1] == green && image.rgb[i + 2] == blue;
+  return found;
+}
+
+TEST(TablePicture, BarsAreGreenWhereThePublishedFigureIsInsideAndRedElsewhere) {
+  TableRow inside = row(10, 12, 8, 16), outside = row(10, 25, 20, 40);
+  inside.id = "X-1", outside.id = "X-2";
+  const auto green = draw_table({inside}), red = draw_table({outside}), both = draw_table({inside, outside});
+  ASSERT_TRUE(green && red && both);
+  EXPECT_GT(count(*green, 44, 140, 60), 500);
+  EXPECT_EQ(0, count(*green, 214, 39, 40));
+  EXPECT_GT(count(*red, 214, 39, 40), 500);
+  EXPECT_EQ(0, count(*red, 44, 140, 60));
+  EXPECT_GT(both->height, green->height);
+}
+
+TEST(TablePicture, LeavesOutRowsThatAreEqualHaveNoFigureOrNoRatio) {
+  TableRow equal = row(3, 3, 3, 3), zero = row(0, 1, 1, 2), open;
+  open.published = 4;
+  EXPECT_FALSE(draw_table({equal, zero, open}));
+  EXPECT_FALSE(draw_table({}));
 }
 
 }  // namespace
