@@ -115,6 +115,8 @@ struct MachineType {
   std::string folder;    ///< where its presets are embedded: "models/machines/rds3000"
   /// Checks the parameters (throws UserError) and builds the machine.
   std::function<std::unique_ptr<Machine>(const config::ParameterSet&, Level, const MachineOptions&)> make;
+  /// Throws the UserError that make() would, and builds nothing. Empty: what make() refuses does not depend on the level.
+  std::function<void(const config::ParameterSet&, Level)> check;
   std::vector<trace::Boundary> boundaries;  ///< where its units can be recorded and replayed
   /// Drives one unit alone with a trace, whose boundary is among those above. Levels are cycle and clocked. Throws
   /// UserError for a trace that is wrong in itself. May elaborate SystemC.

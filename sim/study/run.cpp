@@ -91,7 +91,11 @@ void check_firmware(const std::vector<PinnedDigest>& pins, const Job& job) {
 
 std::unique_ptr<Job> make_job(const RunRequest& request) {
   // The machine checks its parameters before a program is assembled for it, so that the parameter is blamed.
-  request.type->make(request.preset.parameters, Level::kFunction, {});
+  if (request.type->check) {
+    request.type->check(request.preset.parameters, request.level);
+  } else {
+    request.type->make(request.preset.parameters, Level::kFunction, {});
+  }
   try {
     auto job = request.algorithm->make(request.file.scene, *request.type, request.preset.parameters);
     check_firmware(request.file.firmware, *job);

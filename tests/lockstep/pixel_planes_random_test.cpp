@@ -145,6 +145,37 @@ TEST(PixelPlanesLockstep, ACommandThatLacksWordsIsOneErrorAtBothLevels) {
   }
 }
 
+TEST(PixelPlanesLockstep, AProgramWithoutEndIsOneErrorAtBothLevels) {
+  const std::string says = "the micro-program at word 7 of the control store has no end";
+  Scenario scenario;
+  scenario.spec.array.width = scenario.spec.array.height = 64;
+  igc::Header h;
+  h.entry = 7;
+  scenario.program = [=](HostPort& host, std::vector<std::int64_t>&) { host.write(kFifo, igc::pack(h), 0); };
+  expect_errors(scenario, says, says);
+}
+
+// Load 400 x 4 clocks; the header lands in clock 1604, the first word goes out in 1606, the last in 1805.
+TEST(PixelPlanesLockstep, TheLimitOfARunIsReachedInTheSameClockAtBothLevels) {
+  std::vector<igc::MicroWord> program(200);
+  program.back().end = true;
+  for (const std::int64_t limit : {1, 1605, 1700, 1804, 1805, 1806, 1807, 5000}) {
+    Scenario scenario;
+    scenario.spec.array.width = scenario.spec.array.height = 64;
+    scenario.options.tick_limit = limit;
+    scenario.program = [=](HostPort& host, std::vector<std::int64_t>&) {
+      for (std::uint32_t i = 0; i < 400; ++i)
+        host.write(i, static_cast<std::uint32_t>(igc::pack(program[i / 2]) >> (i % 2 * 32)), 0);
+      host.write(kFifo, igc::pack(igc::Header()), 0);
+      host.wait_interrupt();
+    };
+    const std::string says =
+        limit < 1806 ? "the machine has run for " + std::to_string(limit) + " clocks: the limit is reached"
+                     : "";
+    expect_errors(scenario, says, says);
+  }
+}
+
 TEST(PixelPlanesLockstep, AProgramThatSendsNothingIsOneErrorAtBothLevels) {
   const std::string says = "the micro-program at word 0 sends nothing";
   igc::MicroWord none;

@@ -74,5 +74,23 @@ TEST(PixelPlanesScenes, EveryVariantIsEqual) {
   }
 }
 
+/// The picture at level `clocked`, by the route of `dendro run`.
+std::vector<std::uint8_t> clocked_picture(const std::string& gap) {
+  const study::Catalogue all{{pixel_planes_type()}, study::algorithms(), SHARE};
+  study::RunArguments arguments;
+  arguments.scene = "icosahedron";
+  arguments.machine = "pixel-planes";
+  arguments.level = "clocked";
+  arguments.settings = {"parameters.host.program_load_ms=0.1", "parameters.tree.masked=false",
+                        "parameters.tree.gap_clocks=" + gap};
+  return study::execute_in_worker(study::prepare_run(all, arguments), "", nullptr).rgb;
+}
+
+TEST(PixelPlanesScenes, AGapOneClockShortRunsAtClockedAndSpoilsThePicture) {
+  const std::vector<std::uint8_t> right = clocked_picture("8");
+  EXPECT_EQ(clocked_picture("9"), right);
+  EXPECT_NE(clocked_picture("7"), right);
+}
+
 }  // namespace
 }  // namespace dendro::pixel_planes

@@ -236,11 +236,13 @@ TEST(ClockedPixelPlanesTime, WhatCannotEndEndsWithOneClearLine) {
     host.wait_interrupt();
   });
   MachineOptions limited;
-  limited.tick_limit = 5000;
-  fails(limited, [&](HostPort& host) {  // a store of zeros has no word that ends
-    host.write(kFifo, igc::pack(igc::Header()), 0);
+  limited.tick_limit = 5;
+  fails(limited, [&](HostPort& host) {
+    host.write(kFifo, register_write(1, 2), 0);
     host.wait_interrupt();
   });
+  // A store of zeros has no word that ends.
+  fails({}, [&](HostPort& host) { host.write(kFifo, igc::pack(igc::Header()), 0); });
   fails({}, [&](HostPort& host) {
     MicroWord none;
     none.loop = igc::LoopCount::kGuard;

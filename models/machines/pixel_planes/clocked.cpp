@@ -86,7 +86,7 @@ void ClockedEngine::evaluate(std::int64_t n) {
   translator_.clock(n, fifo_);
   if (!stolen) move_array(n, ready);
   if (vcd_ && vcd_->wants(n)) vcd_->after(cause);
-  watch_limit(n);
+  watch_limit();
   if (n % kProgressClocks == 0 && options_.progress) options_.progress(n);
 }
 
@@ -140,13 +140,15 @@ void ClockedEngine::move_array(std::int64_t n, bool ready) {
   slot = {};
   way_at_ = (way_at_ + 1) % way_.size();
   if (!controller_.running() && ready) {
-    const unsigned entry = translator_.command().header.entry;
-    if (!controller_.take(translator_.command()))
-      error_ = std::make_exception_ptr(
-          UserError(fmt::format("the micro-program at word {} sends nothing", entry)));
+    const igc::Header header = translator_.command().header;
+    if (!header.register_write && !controller_.has_end(header.entry)) {
+      fail(fmt::format("the micro-program at word {} of the control store has no end", header.entry));
+    } else if (!controller_.take(translator_.command())) {
+      fail(fmt::format("the micro-program at word {} sends nothing", header.entry));
+    }
     translator_.taken();
     ++fifo_counters_.commands;
-    book(controller_.command().header, n);
+    book(header, n);
   }
   if (controller_.running()) {
     const ClockedController::Sent sent = controller_.send();
@@ -178,17 +180,19 @@ void ClockedEngine::book(const igc::Header& header, std::int64_t n) {
   }
 }
 
-void ClockedEngine::watch_limit(std::int64_t n) {
-  if (options_.tick_limit <= 0 || n < options_.tick_limit || !controller_.running() || error_) return;
-  error_ = std::make_exception_ptr(
-      UserError(fmt::format("the machine has run for {} clocks: the limit is reached", options_.tick_limit)));
+void ClockedEngine::watch_limit() {
+  if (options_.tick_limit > 0 && !stretches_.empty() && stretches_.back().to > options_.tick_limit)
+    fail(fmt::format("the machine has run for {} clocks: the limit is reached", options_.tick_limit));
+}
+
+void ClockedEngine::fail(const std::string& message) {
+  if (!error_) error_ = std::make_exception_ptr(UserError(message));
 }
 
 void ClockedEngine::after_clock() {
   const bool idle = idle_now();
-  if (!error_ && (host_waits_for_idle_ || host_ended_) && cannot_become_idle())
-    error_ = std::make_exception_ptr(
-        UserError("pixel_planes: the last command lacks words, so the machine never becomes idle"));
+  if ((host_waits_for_idle_ || host_ended_) && cannot_become_idle())
+    fail("pixel_planes: the last command lacks words, so the machine never becomes idle");
   const bool over = host_ended_ && idle && next_clock_ * tick_ps_ >= host_end_ps_;
   if (over || error_) {
     stopped_ = true;

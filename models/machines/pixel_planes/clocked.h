@@ -82,7 +82,9 @@ class ClockedEngine : public sc_core::sc_module, public HostPort {
   void count(ClockedCause cause);
   void move_array(std::int64_t n, bool ready);
   void book(const igc::Header& header, std::int64_t n);
-  void watch_limit(std::int64_t n);
+  void watch_limit();
+  /// Ends the run with a UserError.
+  void fail(const std::string& message);
   void after_clock();
   bool idle_now() const;  ///< at the beginning of clock next_clock_, if the host offers nothing more before
   bool behind_fifo_idle() const;

@@ -88,6 +88,12 @@ bool ClockedController::take(const igc::Command& command) {
   return running_;
 }
 
+bool ClockedController::has_end(unsigned entry) const {
+  for (unsigned n = 0; n < igc::kStoreWords; ++n)
+    if (at(entry + n).end) return true;
+  return false;
+}
+
 unsigned ClockedController::turns_of(const MicroWord& word) const {
   const igc::Header& h = command_.header;
   switch (word.loop) {

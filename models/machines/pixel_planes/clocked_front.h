@@ -78,6 +78,8 @@ class ClockedController {
   /// When not running; send() of the same clock gives the command's first word. False: the program sends
   /// nothing.
   bool take(const igc::Command& command);
+  /// Some word from `entry` on ends a program.
+  bool has_end(unsigned entry) const;
   /// One clock that is not stolen, running.
   Sent send();
   /// One clock that is not stolen, in which nothing goes out.

@@ -68,9 +68,10 @@ class FunctionMachine : public Machine {
   FunctionPort port_;
 };
 
-/// Word arithmetic has no streams that run into each other.
-void check_tree(const Spec& spec, const config::ParameterSet& parameters) {
-  if (spec.tree.masked || spec.tree.gap_clocks >= spec.least_gap()) return;
+/// Word arithmetic has no streams that run into each other: only `clocked` takes any gap.
+void check(const config::ParameterSet& parameters, Level level) {
+  const Spec spec = resolve(parameters);
+  if (level == Level::kClocked || spec.tree.masked || spec.tree.gap_clocks >= spec.least_gap()) return;
   const config::Parameter* gap = parameters.find("tree.gap_clocks");
   throw UserError(gap->where.file, gap->where.line, "tree.gap_clocks",
                   "without masks an expression runs into the next unless " + std::to_string(spec.least_gap()) +
@@ -78,8 +79,8 @@ void check_tree(const Spec& spec, const config::ParameterSet& parameters) {
 }
 
 std::unique_ptr<Machine> make(const config::ParameterSet& parameters, Level level, const MachineOptions& options) {
+  check(parameters, level);
   const Spec spec = resolve(parameters);
-  if (level != Level::kClocked) check_tree(spec, parameters);
   if (options.cost)
     throw UserError("--cost", 0, "", "in a pixel array every clock is every pixel's: there is no cost by pixel");
   if (level == Level::kFunction) return std::make_unique<FunctionMachine>(spec);
@@ -97,6 +98,7 @@ MachineType pixel_planes_type() {
   type.levels = {Level::kFunction, Level::kCycle, Level::kClocked};
   type.folder = "models/machines/pixel_planes";
   type.make = make;
+  type.check = check;
   return type;
 }
 

@@ -138,7 +138,8 @@ HWY_ATTR void data_of(DataOp op, const Operands& o, Word* data, std::size_t n) {
 }
 
 HWY_ATTR void write_where(const Word* source, const Word* enable, Word* to, std::size_t n) {
-  DENDRO_MAP(to, hn::IfVecThenElse(DENDRO_AT(enable), DENDRO_AT(source), DENDRO_AT(to)));
+  DENDRO_MAP(to, hn::Or(hn::And(DENDRO_AT(enable), DENDRO_AT(source)),
+                        hn::AndNot(DENDRO_AT(enable), DENDRO_AT(to))));
 }
 
 bool changes_enable(Function function) {

@@ -1,10 +1,13 @@
 #include <gtest/gtest.h>
+#include <hwy/targets.h>
 
+#include <functional>
 #include <random>
 #include <vector>
 
 #include "models/parts/igc/clocked_array.h"
 #include "models/parts/igc/clocked_kernels.h"
+#include "models/parts/igc/clocked_tree.h"
 
 namespace dendro::igc {
 namespace {
@@ -147,31 +150,47 @@ class Pair {
   std::vector<Pixel> pixels_;
 };
 
+/// Runs a test's body with each kind of vectors that this host has, not only the widest.
+void for_all_vectors(const std::function<void()>& body) {
+  for (const std::int64_t target : hwy::SupportedAndGeneratedTargets()) {
+    hwy::SetSupportedTargetsForTest(target);
+    hwy::GetChosenTarget().Update(hwy::SupportedTargets());
+    EXPECT_STREQ(vector_target(), hwy::TargetName(target));
+    SCOPED_TRACE(vector_target());
+    body();
+    hwy::SetSupportedTargetsForTest(0);
+    hwy::GetChosenTarget().Update(hwy::SupportedTargets());
+    if (::testing::Test::HasFatalFailure()) return;
+  }
+}
+
 // 128 pixels hold all 32 states of (E, C, D, a, t) and more; a word has 8 x 7 x 7 x 5 x 5 forms.
 TEST(ClockedArray, EveryWordDoesInEveryStateWhatTheFourStepsSay) {
-  std::mt19937_64 random(11);
-  for (unsigned ports : {1u, 2u}) {
-    Pair pair(2, 8, ports);
-    int done = 0;
-    for (unsigned f = 0; f < static_cast<unsigned>(Function::kCount); ++f)
-      for (unsigned x = 0; x < static_cast<unsigned>(Operand::kCount); ++x)
-        for (unsigned y = 0; y < static_cast<unsigned>(Operand::kCount); ++y)
-          for (unsigned d = 0; d < static_cast<unsigned>(DataOp::kCount); ++d)
-            for (unsigned s = 0; s < static_cast<unsigned>(Source::kCount); ++s) {
-              ArrayWord w;
-              w.function = static_cast<Function>(f);
-              w.x = static_cast<Operand>(x), w.y = static_cast<Operand>(y);
-              w.data = static_cast<DataOp>(d);
-              w.source = static_cast<Source>(s);
-              const std::uint64_t r = random();
-              w.read_a = r & 1, w.write_a = r & 2, w.read_b = r & 4, w.write_b = r & 8, w.tree = r & 16;
-              w.address_a = r >> 8 & 7, w.address_b = r >> 16 & 7;
-              if (done++ % 16 == 0) pair.stir(random);
-              pair.clock(w, random);
-              ASSERT_EQ(pair.differences(), 0u) << "function " << f << " x " << x << " y " << y << " data "
-                                                << d << " source " << s << " r " << r << " ports " << ports;
-            }
-  }
+  for_all_vectors([] {
+    std::mt19937_64 random(11);
+    for (unsigned ports : {1u, 2u}) {
+      Pair pair(2, 8, ports);
+      int done = 0;
+      for (unsigned f = 0; f < static_cast<unsigned>(Function::kCount); ++f)
+        for (unsigned x = 0; x < static_cast<unsigned>(Operand::kCount); ++x)
+          for (unsigned y = 0; y < static_cast<unsigned>(Operand::kCount); ++y)
+            for (unsigned d = 0; d < static_cast<unsigned>(DataOp::kCount); ++d)
+              for (unsigned s = 0; s < static_cast<unsigned>(Source::kCount); ++s) {
+                ArrayWord w;
+                w.function = static_cast<Function>(f);
+                w.x = static_cast<Operand>(x), w.y = static_cast<Operand>(y);
+                w.data = static_cast<DataOp>(d);
+                w.source = static_cast<Source>(s);
+                const std::uint64_t r = random();
+                w.read_a = r & 1, w.write_a = r & 2, w.read_b = r & 4, w.write_b = r & 8, w.tree = r & 16;
+                w.address_a = r >> 8 & 7, w.address_b = r >> 16 & 7;
+                if (done++ % 16 == 0) pair.stir(random);
+                pair.clock(w, random);
+                ASSERT_EQ(pair.differences(), 0u) << "function " << f << " x " << x << " y " << y << " data "
+                                                  << d << " source " << s << " r " << r << " ports " << ports;
+              }
+    }
+  });
 }
 
 TEST(ClockedArray, AddressesBeyondTheMemoryReadZeroAndIgnoreWrites) {
@@ -191,23 +210,44 @@ TEST(ClockedArray, AddressesBeyondTheMemoryReadZeroAndIgnoreWrites) {
 }
 
 TEST(ClockedArray, ArraysThatAreNoWholeNumberOfBlocksOrVectorsAreWorkedOnToTheirEnd) {
-  std::mt19937_64 random(13);
-  for (const std::size_t words : {1u, 3u, 7u, 255u, 257u, 515u}) {
-    Pair pair(words, 8, 2);
-    pair.stir(random);
-    for (int i = 0; i < 20; ++i) {
-      ArrayWord w;
-      w.read_a = w.write_a = true;
-      w.address_a = random() % 8;
-      w.tree = true;
-      w.x = Operand::kTree, w.y = Operand::kPortA;
-      w.function = i % 2 ? Function::kBorrow : Function::kCarry;
-      w.source = Source::kSum;
-      w.data = DataOp::kOrTree;
-      pair.clock(w, random);
+  for_all_vectors([] {
+    std::mt19937_64 random(13);
+    for (const std::size_t words : {1u, 3u, 7u, 255u, 257u, 515u}) {
+      Pair pair(words, 8, 2);
+      pair.stir(random);
+      for (int i = 0; i < 20; ++i) {
+        ArrayWord w;
+        w.read_a = w.write_a = true;
+        w.address_a = random() % 8;
+        w.tree = true;
+        w.x = Operand::kTree, w.y = Operand::kPortA;
+        w.function = i % 2 ? Function::kBorrow : Function::kCarry;
+        w.source = Source::kSum;
+        w.data = DataOp::kOrTree;
+        pair.clock(w, random);
+      }
+      EXPECT_EQ(pair.differences(), 0u) << words;
     }
-    EXPECT_EQ(pair.differences(), 0u) << words;
-  }
+  });
+}
+
+TEST(ClockedTree, EveryKindOfVectorsGivesTheSameNodes) {
+  std::vector<std::uint64_t> first;
+  for_all_vectors([&first] {
+    std::vector<std::uint64_t> all;
+    for (const unsigned levels_x : {6u, 7u, 8u, 9u, 10u}) {
+      ClockedTree tree(levels_x, 6, true);
+      TreeFeed feed(levels_x - 1, levels_x + 5, 1);
+      for (int n = 0; n < 100; ++n) {
+        if (n % 25 == 0) feed.start(-123456 + n, 98765 * n, 31337 - n);
+        tree.clock(feed.clock());
+        all.insert(all.end(), tree.leaves(), tree.leaves() + tree.words());
+      }
+    }
+    if (first.empty()) first = all;
+    ASSERT_TRUE(first == all);
+  });
+  EXPECT_FALSE(first.empty());
 }
 
 }  // namespace
