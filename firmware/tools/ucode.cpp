@@ -128,8 +128,8 @@ void read_header(Reader& reader, Ucode& ucode) {
     reader.fail(fmt::format("format {} is newer than this program, which reads up to {}", first[1], kFormat));
   }
   ucode.machine = reader.value("machine");
-  if (ucode.machine != "rds3000")
-    reader.fail("machine '" + ucode.machine + "' is unknown: rds3000 is allowed");
+  if (ucode.machine != "rds3000" && ucode.machine != "pixel-planes")
+    reader.fail("machine '" + ucode.machine + "' is unknown: rds3000 and pixel-planes are allowed");
   ucode.isa_version = static_cast<int>(reader.number(reader.value("isa"), 1u << 30, "isa"));
   if (ucode.isa_version != bps32::kIsaVersion) {
     reader.fail(fmt::format("control word layout {} is not the {} of this program", ucode.isa_version,

@@ -4,6 +4,8 @@
 
 #include "firmware/tools/assembler.h"
 #include "firmware/tools/disassembler.h"
+#include "firmware/tools/igc_assembler.h"
+#include "firmware/tools/igc_disassembler.h"
 #include "firmware/tools/ucode.h"
 #include "sim/app/arguments.h"
 #include "sim/app/commands.h"
@@ -20,10 +22,14 @@ struct Options {
   tools::AssembleOptions assemble;
 };
 
+constexpr const char* kPixelPlanes = "pixel-planes";
+
+bool is_pixel_planes(const std::string& machine) { return machine.substr(0, machine.find(':')) == kPixelPlanes; }
+
 void check_machine(const std::string& machine, const study::Catalogue& catalogue) {
   const std::string name = machine.substr(0, machine.find(':'));
-  if (name != "rds3000" || catalogue.machine(name) == nullptr)
-    throw UserError("", 0, machine, "there is a microassembler for rds3000 only");
+  if ((name != "rds3000" && name != kPixelPlanes) || catalogue.machine(name) == nullptr)
+    throw UserError("", 0, machine, "there are microassemblers for rds3000 and pixel-planes only");
 }
 
 int assemble(const Options& options) {
@@ -31,6 +37,12 @@ int assemble(const Options& options) {
   refuse_same_file("--listing", options.listing, "the source", options.in);
   refuse_same_file("--listing", options.listing, "--out", options.out);
   study::OutputFile out(options.out), listing(options.listing);
+  if (is_pixel_planes(options.machine)) {
+    if (!options.listing.empty()) throw UserError("--listing", 0, "", "there are listings of rds3000 programs only");
+    const tools::IgcImage image = tools::assemble_igc(config::read_text({false, options.in}, {}), options.in, {2, 256, {}});
+    out.commit(tools::write_ucode(tools::igc_ucode(image)));
+    return kGood;
+  }
   tools::AssembleOptions settings = options.assemble;
   settings.include = study::include_beside(options.in);
   const tools::Assembly assembly =
@@ -44,7 +56,10 @@ int disassemble(const Options& options) {
   refuse_same_file("--out", options.out, "the program", options.in);
   study::OutputFile out(options.out.empty() ? "-" : options.out);
   const tools::Ucode ucode = tools::read_ucode(config::read_text({false, options.in}, {}), options.in);
-  out.commit(tools::disassemble(ucode));
+  const bool planes = is_pixel_planes(options.machine);
+  if (planes != (ucode.machine == kPixelPlanes))
+    throw UserError(options.in, 0, "", "the program is for " + ucode.machine);
+  out.commit(planes ? tools::disassemble_igc(ucode) : tools::disassemble(ucode));
   return kGood;
 }
 
@@ -53,8 +68,8 @@ int disassemble(const Options& options) {
 void add_asm(CLI::App& app, const study::Catalogue& catalogue, Action& action) {
   const auto o = std::make_shared<Options>();
   CLI::App* assembler = app.add_subcommand("asm", "assemble a microprogram");
-  assembler->add_option("machine", o->machine, "rds3000")->required();
-  assembler->add_option("in", o->in, "source, .gia")->required();
+  assembler->add_option("machine", o->machine, "rds3000 or pixel-planes")->required();
+  assembler->add_option("in", o->in, "source, .gia or .igc")->required();
   assembler->add_option("-o,--out", o->out, ".ucode file; - is standard output")
       ->required()
       ->check(some_text());
@@ -74,7 +89,7 @@ void add_asm(CLI::App& app, const study::Catalogue& catalogue, Action& action) {
     };
   });
   CLI::App* disassembler = app.add_subcommand("disasm", "turn a .ucode file back into a source");
-  disassembler->add_option("machine", o->machine, "rds3000")->required();
+  disassembler->add_option("machine", o->machine, "rds3000 or pixel-planes")->required();
   disassembler->add_option("in", o->in, ".ucode file")->required();
   disassembler->add_option("-o,--out", o->out, "source; default: standard output")->check(some_text());
   disassembler->callback([&, o] {

@@ -56,8 +56,20 @@ TEST_F(PixelPlanes, CommandsThatDoNotApplySaySoInOneLine) {
   expect_user_error("run icosahedron --machine pixel-planes --cost", "there is no cost by pixel");
   write("p.ucode", "");
   expect_user_error("exec pixel-planes p.ucode", "pixel-planes has no processor that runs a program by itself");
-  expect_user_error("asm pixel-planes p.igc -o p.out", "there is a microassembler for rds3000 only");
+  expect_user_error("disasm pixel-planes p.ucode", "p.ucode:1: the file is truncated");
   expect_user_error("record icosahedron --machine pixel-planes --boundary pixel_planes.commands --out o", "boundary");
+}
+
+TEST_F(PixelPlanes, MicroprogramsAssembleAndComeBack) {
+  write("p.igc", "register f = 1;\nprogram p { enable = 1; loop 16 { f[i] = tree; } }\n");
+  ASSERT_EQ(0, dendro("asm pixel-planes p.igc -o p.ucode").status);
+  ASSERT_EQ(0, dendro("disasm pixel-planes p.ucode -o q.igc").status);
+  ASSERT_EQ(0, dendro("asm pixel-planes q.igc -o q.ucode").status);
+  EXPECT_EQ(read("p.ucode"), read("q.ucode"));
+  expect_user_error("exec rds3000 p.ucode", "the program is for pixel-planes, not rds3000");
+  expect_user_error("disasm rds3000 p.ucode", "the program is for pixel-planes");
+  write("bad.igc", "register f = 1;\nprogram p { enable = 1; f[i] = 1; }\n");
+  expect_user_error("asm pixel-planes bad.igc -o bad.ucode", "bad.igc:2:25: `i` counts the turns of a loop");
 }
 
 TEST_F(PixelPlanes, MachinesAndFirmwareListIt) {

@@ -1,7 +1,9 @@
 #include <algorithm>
+#include <functional>
 #include <set>
 #include <sstream>
 
+#include "models/machines/pixel_planes/pixel_planes.h"
 #include "models/machines/rds3000/rds3000.h"
 #include "sim/study/algorithms.h"
 #include "tests/core/study/fake_machine.h"
@@ -25,32 +27,38 @@ std::vector<std::string> keys_in(std::string message) {
   return {std::istream_iterator<std::string>(words), {}};
 }
 
-TEST_F(OptionKeys, OfEveryAlgorithmAreThoseThatItsJobReads) {
-  const std::string mesh = write("m.obj", kTetrahedron);
-  const MachineType type = rds3000::rds3000_type();
-  const Catalogue all{{type}, algorithms(), "/nowhere"};
+/// What the jobs of one machine read.
+std::set<std::string> keys_read(const Algorithm& algorithm, const MachineType& type, const Catalogue& all,
+                                const std::string& mesh, const std::function<std::string(const std::string&)>& write) {
+  std::set<std::string> read;
+  if (std::find(algorithm.machines.begin(), algorithm.machines.end(), type.name) == algorithm.machines.end()) return read;
   const config::Preset preset = config::load_preset(type.name, all.presets(), {});
-  for (const Algorithm& algorithm : algorithms()) {
-    if (std::find(algorithm.machines.begin(), algorithm.machines.end(), type.name) ==
-        algorithm.machines.end())
-      continue;
-    // One object, two, and one with a trunk may be drawn by different programs with keys of their own.
-    std::set<std::string> read;
-    for (const auto& [objects, trunk] : {std::pair(1, false), {2, false}, {1, true}}) {
-      std::string text = "algorithm = \"" + algorithm.name +
-                         "\"\n[image]\nwidth = 8\nheight = 8\n[camera]\nheight = 4\nposition = [0, 0, 4]\n";
-      for (int i = 0; i < objects; ++i) text += "[[object]]\nmesh = \"" + mesh + "\"\n";
-      if (trunk) text += "trunk = \"cone\"\n";
-      SceneFile file = load_scene(write("s.toml", text), {}, all);
-      file.scene.options.set(std::string(60, 'z'), {std::int64_t{1}, {}});
-      std::string message = "no error";
-      try {
-        algorithm.make(file.scene, type, preset.parameters);
-      } catch (const UserError& error) {
-        message = error.message();
-      }
-      for (const std::string& key : keys_in(message)) read.insert(key);
+  // One object, two, and one with a trunk may be drawn by different programs with keys of their own.
+  for (const auto& [objects, trunk] : {std::pair(1, false), {2, false}, {1, true}}) {
+    std::string text = "algorithm = \"" + algorithm.name +
+                       "\"\n[image]\nwidth = 8\nheight = 8\n[camera]\nheight = 4\nposition = [0, 0, 4]\n";
+    for (int i = 0; i < objects; ++i) text += "[[object]]\nmesh = \"" + mesh + "\"\n";
+    if (trunk) text += "trunk = \"cone\"\n";
+    SceneFile file = load_scene(write(text), {}, all);
+    file.scene.options.set(std::string(60, 'z'), {std::int64_t{1}, {}});
+    std::string message = "no error";
+    try {
+      algorithm.make(file.scene, type, preset.parameters);
+    } catch (const UserError& error) {
+      message = error.message();
     }
+    for (const std::string& key : keys_in(message)) read.insert(key);
+  }
+  return read;
+}
+
+TEST_F(OptionKeys, OfEveryAlgorithmAreThoseThatItsJobsRead) {
+  const std::string mesh = write("m.obj", kTetrahedron);
+  const Catalogue all{{rds3000::rds3000_type(), pixel_planes::pixel_planes_type()}, algorithms(), "/nowhere"};
+  for (const Algorithm& algorithm : algorithms()) {
+    std::set<std::string> read;
+    for (const MachineType& type : all.machines)
+      read.merge(keys_read(algorithm, type, all, mesh, [&](const std::string& text) { return write("s.toml", text); }));
     std::vector<std::string> declared = algorithm.option_keys;
     std::sort(declared.begin(), declared.end());
     EXPECT_EQ(std::vector<std::string>(read.begin(), read.end()), declared) << algorithm.name;

@@ -1,6 +1,10 @@
 #include <gtest/gtest.h>
 
+#include <fstream>
+#include <iterator>
+
 #include "firmware/tools/igc_assembler.h"
+#include "firmware/tools/igc_disassembler.h"
 #include "models/parts/igc/igc_isa.h"
 #include "sim/base/error.h"
 
@@ -85,6 +89,26 @@ TEST(IgcAssembler, MistakesAreNamedWithTheirPlace) {
   expect_error("register n = 3;", "declared twice");
   expect_error("register tree = 3;", "means something else");
   expect_error("program p { enable = 1", "`;` stands here");
+}
+
+TEST(IgcAssembler, ShippedProgramsComeBackFromTheirWords) {
+  for (const char* name : {"half_space.igc", "two_ports.igc"}) {
+    std::ifstream file(std::string(IGC_SOURCES) + "/" + name);
+    const std::string source{std::istreambuf_iterator<char>(file), {}};
+    const IgcImage image = assemble_igc(source, name, {2, 256, {}});
+    ASSERT_FALSE(image.words.empty());
+    const std::string text = disassemble_igc(igc_ucode(image));
+    EXPECT_EQ(image.words, assemble_igc(text, "back", {2, 256, {}}).words) << text;
+    EXPECT_NE(std::string::npos, text.find("program finish {"));
+  }
+}
+
+TEST(IgcAssembler, AWordThatTheLanguageCannotSayIsAnError) {
+  Ucode ucode;
+  igc::MicroWord word;
+  word.function = igc::Function::kAndCarry, word.end = true;  // without enable and carry set
+  ucode.words = {pack(word)};
+  EXPECT_THROW(disassemble_igc(ucode), UserError);
 }
 
 }  // namespace
