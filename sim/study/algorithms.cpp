@@ -11,6 +11,7 @@
 #include "sim/base/embedded.h"
 #include "sim/base/error.h"
 #include "sim/base/sha256.h"
+#include "sim/study/primitives.h"
 
 namespace dendro::study {
 std::int64_t integer_of(const config::ParameterSet& parameters, const std::string& key) {
@@ -172,6 +173,7 @@ const std::vector<Algorithm>& algorithms() {
        {"planes", "plane_source", "directions", "unbounded", "starting_box", "boxing", "depth_bits",
         "depth_margin", "depth_range", "steep", "diffuse", "colour", "background", "registers", "near_shade", "far_shade",
         "bands", "relief", "fraction_bits", "guard_bits", "edge_fraction_bits", "variant", "colouring"}},
+      raster_primitives_algorithm(),
   };
   return list;
 }
