@@ -50,6 +50,7 @@ void WordEngine::execute(const MacroProgram& program, const igc::Command& comman
     ++counters_.bitwise_commands;
     return;
   }
+  if (macros->front().kind == MacroKind::kFill) flush();  // fills begin a batch
   for (const Macro& macro : *macros) {
     DENDRO_CHECK(add(macro), "field {}", macro.fields[0].low);
     counters_.pixel_operations += static_cast<std::uint64_t>(spec_.pixels());
@@ -72,13 +73,10 @@ int WordEngine::field_of(const FieldPlace& place, bool flag) {
   return static_cast<int>(fields_.size()) - 1;
 }
 
-/// A fill behind other operations begins a new batch.
 bool WordEngine::add(const Macro& macro) {
   Op op;
   op.macro = macro;
   const bool fill = macro.kind == MacroKind::kFill;
-  const std::vector<Op>& open = batches_.back().ops;
-  if (fill && !open.empty() && open.back().macro.kind != MacroKind::kFill) flush();
   for (bool again = true; again;) {
     again = false;
     for (unsigned k = 0; k < macro.field_count; ++k) {
