@@ -90,8 +90,8 @@ class PrimitivesJob : public Job {
             {"triangles.flat", count(prepared_.flat)},
             {"depth_bits", count(prepared_.layout.depth_bits)},
             {"memory_bits_used", count(prepared_.layout.used())},
-            {"host.flops_per_triangle", count(kFlopsTriangle)},
-            {"host.vertex_flops", count(prepared_.vertex_flops)}};
+            {"host.flops_per_triangles",
+             count(kFlopsTriangle) + count(prepared_.vertex_flops) / std::max<double>(1, count(prepared_.set_up.size()))}};
   }
 
  private:

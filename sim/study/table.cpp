@@ -78,7 +78,7 @@ bool TableRow::inside() const {
 }
 
 const std::vector<PaperTable>& paper_tables() {
-  static const std::vector<PaperTable> tables = {fg86_table()};
+  static const std::vector<PaperTable> tables = {fg86_table(), fghs85_table()};
   return tables;
 }
 
