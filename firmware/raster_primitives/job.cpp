@@ -26,7 +26,7 @@ class PrimitivesJob : public Job {
     const std::vector<std::uint32_t> depth = depths(machine);
     ErrorReport report;
     const auto width = static_cast<std::size_t>(prepared_.width);
-    double squares = 0, worst_colour = 0, worst_shift = 0;
+    double squares = 0, worst_colour = 0, worst_shift = 0, worst_sphere = 0;
     std::int64_t inner = 0;
     for (std::size_t i = 0; i < depth.size(); ++i) {
       const bool covered = depth[i] != prepared_.farthest, wanted_covered = wanted.seen[i] >= 0;
@@ -39,6 +39,10 @@ class PrimitivesJob : public Job {
       }
       if (!wanted.inner[i]) continue;
       ++inner;
+      if (const ScreenSphere* sphere = sphere_of(wanted.seen[i])) {
+        worst_sphere = std::max(worst_sphere, std::abs(depth[i] - wanted.depth[i]) / sphere->depth_radius);
+        continue;
+      }
       const double error = std::abs(depth[i] + 0.5 - wanted.depth[i]);
       report.max_depth_error = std::max(report.max_depth_error, error);
       // A corner that was moved moves the depth by so many pixels' worth of its slope.
@@ -49,7 +53,8 @@ class PrimitivesJob : public Job {
     if (squares > 0) report.psnr_db = 10 * std::log10(255.0 * 255.0 * 3 * static_cast<double>(depth.size()) / squares);
     report.extra = {{"inner_pixels", static_cast<double>(inner)},
                     {"inner_colour_error", worst_colour},
-                    {"inner_depth_error_pixels", worst_shift}};
+                    {"inner_depth_error_pixels", worst_shift},
+                    {"inner_sphere_depth_error_radii", worst_sphere}};
     return report;
   }
 
@@ -90,11 +95,25 @@ class PrimitivesJob : public Job {
             {"triangles.flat", count(prepared_.flat)},
             {"depth_bits", count(prepared_.layout.depth_bits)},
             {"memory_bits_used", count(prepared_.layout.used())},
+            {"spheres", count(prepared_.spheres.size())},
+            {"spheres.given", count(prepared_.spheres_given)},
+            {"host.flops_per_spheres", sphere_flops()},
             {"host.flops_per_triangles",
              count(kFlopsTriangle) + count(prepared_.vertex_flops) / std::max<double>(1, count(prepared_.set_up.size()))}};
   }
 
  private:
+  double sphere_flops() const {
+    double sum = 0;
+    for (const SphereSetup& sphere : prepared_.sphere_set_up) sum += static_cast<double>(flops_of(sphere));
+    return sum / std::max<double>(1, static_cast<double>(prepared_.sphere_set_up.size()));
+  }
+
+  const ScreenSphere* sphere_of(std::int32_t number) const {
+    const auto triangles = static_cast<std::int32_t>(prepared_.triangles.size());
+    return number < triangles ? nullptr : &prepared_.spheres[static_cast<std::size_t>(number - triangles)];
+  }
+
   std::vector<std::uint32_t> depths(const MachineView& machine) const {
     const std::uint32_t mask = (1u << prepared_.layout.depth_bits) - 1;
     std::vector<std::uint32_t> depth;

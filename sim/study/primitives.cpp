@@ -15,20 +15,22 @@ std::unique_ptr<Job> make_primitives(const scene::Scene& scene, const MachineTyp
   site.memory_bits = static_cast<int>(integer_of(parameters, "array.memory_bits"));
   tools::IgcOptions options;
   options.memory_bits = site.memory_bits;
-  options.registers = raster_primitives::register_values(raster_primitives::choose_layout(scene, site));
-  return raster_primitives::make_job(
-      scene, igc_programs({"firmware/raster_primitives/pixel_planes/triangles.igc"}, options), site);
+  const raster_primitives::Layout layout = raster_primitives::choose_layout(scene, site);
+  options.registers = raster_primitives::register_values(layout);
+  std::vector<std::string> sources = {"firmware/raster_primitives/pixel_planes/triangles.igc"};
+  if (layout.has_spheres()) sources.push_back("firmware/raster_primitives/pixel_planes/spheres.igc");
+  return raster_primitives::make_job(scene, igc_programs(sources, options), site);
 }
 
 }  // namespace
 
 Algorithm raster_primitives_algorithm() {
   return {"raster_primitives",
-          "smooth triangles with a depth buffer in pixel memory (FGHS85)",
+          "smooth triangles and spheres with a depth buffer in pixel memory (FGHS85)",
           {"pixel-planes"},
           "firmware/raster_primitives",
           make_primitives,
-          {"depth_bits", "fraction_bits", "patch_steps", "cull", "colours", "background"}};
+          {"depth_bits", "fraction_bits", "patch_steps", "cull", "colours", "background", "spheres", "sphere_digits"}};
 }
 
 }  // namespace dendro::study

@@ -18,10 +18,27 @@ Work flops(std::uint64_t count) {
   return work;
 }
 
+void draw_spheres(HostPort& host, lib::IgcDriver& driver, const Prepared& prepared) {
+  if (prepared.sphere_set_up.empty()) return;
+  SphereSender sender(driver, prepared.layout);
+  sender.load_squares(prepared.rules.width, prepared.rules.height);
+  for (const SphereSetup& sphere : prepared.sphere_set_up) {
+    host.compute(flops(flops_of(sphere)));
+    sender.send(sphere);
+  }
+}
+
 }  // namespace
 
 std::map<std::string, unsigned> register_values(const Layout& layout) {
-  return {{"depth_bits", layout.depth_bits}, {"depth", layout.depth}, {"flag", layout.flag}, {"colour", layout.colour}};
+  std::map<std::string, unsigned> values = {
+      {"depth_bits", layout.depth_bits}, {"depth", layout.depth}, {"flag", layout.flag}, {"colour", layout.colour}};
+  if (!layout.has_spheres()) return values;
+  values.insert({{"square", layout.square},
+                 {"square_bits", layout.square_bits},
+                 {"square_top", layout.square + layout.square_bits - 1},
+                 {"seen", layout.seen}});
+  return values;
 }
 
 void run(HostPort& host, const Prepared& prepared, const lib::IgcPrograms& programs) {
@@ -42,6 +59,7 @@ void run(HostPort& host, const Prepared& prepared, const lib::IgcPrograms& progr
     done = due;
     send(driver, triangle);
   }
+  draw_spheres(host, driver, prepared);
   host.phase("finish");
   driver.wait();
 }

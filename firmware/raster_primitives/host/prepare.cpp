@@ -17,6 +17,16 @@
 namespace dendro::raster_primitives {
 namespace {
 
+/// A sphere of the scene: world space, metres.
+struct Ball {
+  glm::dvec3 centre{};
+  double radius = 1;
+  std::vector<double> colour;
+};
+
+/// The paraboloid's factor is a sum of few digits, which can be this much too large.
+constexpr double kBulge = 1.25;
+
 /// An object's triangles in world space with a normal at each corner.
 struct Shape {
   std::vector<glm::dvec3> corners, normals;  ///< by vertex
@@ -68,7 +78,12 @@ class Preparation {
     colours_ = options_.vectors("colours", 3);
     if (colours_.size() > scene.objects.size())
       options_.fail("colours", fmt::format("{} colours for {} objects", colours_.size(), scene.objects.size()));
+    for (const std::vector<double>& colour : colours_) check_colour("colours", colour);
+    digits_ = static_cast<int>(options_.integer("sphere_digits", 2, 1, 6));
+    read_spheres();
     options_.finish();
+    if (scene.objects.empty() && balls_.empty())
+      throw UserError(scene_.file, 0, "object", "the scene has no object and no sphere");
   }
 
   Prepared prepare() {
@@ -77,6 +92,9 @@ class Preparation {
     p_.files.erase(std::unique(p_.files.begin(), p_.files.end()), p_.files.end());
     map_depth();
     for (std::size_t k = 0; k < shapes_.size(); ++k) project(k);
+    for (const Ball& ball : balls_) project(ball);
+    for (const ScreenSphere& sphere : p_.spheres)
+      p_.sphere_set_up.push_back(dendro::raster_primitives::set_up(sphere, digits_, p_.rules));
     for (const ScreenTriangle& triangle : p_.triangles) {
       const auto made = dendro::raster_primitives::set_up(triangle.corners, p_.rules);
       p_.without_area += !made;
@@ -98,7 +116,19 @@ class Preparation {
                                           std::tuple("image.height", scene_.image.height, site_.height)})
       if (side < 1 || side > most)
         throw UserError(at.file, at.line, key, fmt::format("{} is outside the array's 1..{} pixels", side, most));
-    if (scene_.objects.empty()) throw UserError(scene_.file, 0, "object", "the scene has no object");
+  }
+
+  void check_colour(const char* key, const std::vector<double>& colour) const {
+    for (const double part : colour)
+      if (!(part >= 0 && part <= 1)) options_.fail(key, "a colour's parts are 0..1");
+  }
+
+  void read_spheres() {
+    for (const std::vector<double>& row : options_.vectors("spheres", 7)) {
+      if (!(row[3] > 0)) options_.fail("spheres", "a sphere is [x, y, z, radius, red, green, blue] with a radius above 0");
+      balls_.push_back({{row[0], row[1], row[2]}, row[3], {row[4], row[5], row[6]}});
+      check_colour("spheres", balls_.back().colour);
+    }
   }
 
   Shape load(const scene::Object& object) {
@@ -121,10 +151,19 @@ class Preparation {
         const double depth = view(corner).z;
         nearest = std::min(nearest, depth), farthest = std::max(farthest, depth);
       }
+    double most_radius = 0;
+    for (const Ball& ball : balls_) {
+      const double depth = view(ball.centre).z;
+      nearest = std::min(nearest, depth - kBulge * ball.radius), farthest = std::max(farthest, depth);
+      most_radius = std::max(most_radius, ball.radius);
+    }
+    // What a sphere adds to a depth for a while must not leave the range either.
+    const double headroom = kBulge * most_radius;
     const double margin = depth_margin(p_.rules);
-    p_.farthest = (1u << p_.layout.depth_bits) - 1;
+    const std::uint32_t most = (1u << p_.layout.depth_bits) - 1;
     const double range = std::max(farthest - nearest, 1e-9);
-    p_.depth_scale = (p_.farthest - 2 * margin) / range;
+    p_.depth_scale = (most - 3 * margin) / (range + headroom);
+    p_.farthest = balls_.empty() ? most : static_cast<std::uint32_t>(p_.depth_scale * range + 2 * margin);
     p_.depth_shift = margin - p_.depth_scale * nearest;
   }
 
@@ -142,6 +181,30 @@ class Preparation {
     p_.vertex_flops += shape.triangles.size() * kFlopsFacing;
     p_.given += shape.triangles.size();
     for (const auto& t : shape.triangles) add({{vertices[t[0]], vertices[t[1]], vertices[t[2]]}, number});
+  }
+
+  void project(const Ball& ball) {
+    ++p_.spheres_given;
+    const scene::Affine view = scene::parallel_view(scene_.camera, scene_.image);
+    const scene::CameraAxes axes(scene_.camera);
+    const glm::dvec3 s = view(ball.centre), light = shader_.to_light();
+    ScreenSphere sphere;
+    sphere.x = s.x, sphere.y = s.y, sphere.depth = p_.depth_scale * s.z + p_.depth_shift;
+    sphere.radius = ball.radius * scene_.image.height / scene_.camera.height;
+    sphere.depth_radius = ball.radius * p_.depth_scale;
+    sphere.light = {glm::dot(light, axes.right), -glm::dot(light, axes.up), -glm::dot(light, axes.forward)};
+    for (std::size_t c = 0; c < 3; ++c) {
+      const auto [level, swing] = shader_.level_and_swing(ball.colour[c]);
+      sphere.level[c] = level, sphere.swing[c] = swing;
+    }
+    if (s.x + sphere.radius < -0.5 || s.y + sphere.radius < -0.5 || s.x - sphere.radius > p_.width - 0.5 ||
+        s.y - sphere.radius > p_.height - 0.5)
+      return;
+    const double side = std::max(site_.width, site_.height);
+    if (sphere.radius > side || std::min(s.x, s.y) < -side / 2 || std::max(s.x, s.y) > 1.5 * side)
+      options_.fail("spheres", fmt::format("sphere {} is too large for the numbers in a pixel, or its centre too far outside",
+                                           p_.spheres_given));
+    p_.spheres.push_back(sphere);
   }
 
   void add(const ScreenTriangle& triangle) {
@@ -175,6 +238,8 @@ class Preparation {
   Shader shader_;
   int steps_ = 8;
   bool cull_ = true;
+  int digits_ = 2;
+  std::vector<Ball> balls_;
   std::vector<std::vector<double>> colours_;
   std::vector<Shape> shapes_;
   Prepared p_;
@@ -184,7 +249,8 @@ class Preparation {
 
 Layout choose_layout(const scene::Scene& scene, const ArraySite& site) {
   scene::Options options = scene.options;
-  const Layout layout(static_cast<unsigned>(options.integer("depth_bits", 16, 12, 24)));
+  Layout layout(static_cast<unsigned>(options.integer("depth_bits", 16, 12, 24)));
+  if (!options.vectors("spheres", 7).empty()) layout.square_bits = square_bits_for(site.width, site.height);
   if (layout.used() > static_cast<unsigned>(site.memory_bits))
     options.fail("depth_bits", fmt::format("the picture takes {} bits of a pixel; its memory has {}", layout.used(),
                                            site.memory_bits));

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "firmware/raster_primitives/host/layout.h"
+#include "firmware/raster_primitives/host/sphere_setup.h"
 #include "firmware/raster_primitives/host/triangle_setup.h"
 #include "sim/scene/scene.h"
 
@@ -32,8 +33,11 @@ struct Prepared {
   std::uint32_t farthest = 0;               ///< depth of the background
   std::vector<ScreenTriangle> triangles;    ///< those that can cover a pixel
   std::vector<TriangleSetup> set_up;        ///< of those with area on the grid, in their order
+  std::vector<ScreenSphere> spheres;        ///< those that can cover a pixel
+  std::vector<SphereSetup> sphere_set_up;   ///< of the same
   std::uint64_t vertex_flops = 0;           ///< transforms, normals, shades
   std::size_t given = 0;                    ///< triangles of all objects
+  std::size_t spheres_given = 0;
   std::size_t facing_away = 0, outside = 0, without_area = 0, flat = 0;
   std::vector<std::string> files;
 };

@@ -31,10 +31,17 @@ Shader::Shader(const scene::Scene& scene) {
 }
 
 std::array<double, 3> Shader::operator()(const glm::dvec3& normal, const std::vector<double>& colour) const {
-  const double shade = ambient_ + (1 - ambient_) * (1 + glm::dot(normal, to_light_)) / 2;
   std::array<double, 3> out{};
-  for (std::size_t c = 0; c < 3; ++c) out[c] = kColourMargin + (255 - 2 * kColourMargin) * shade * colour[c];
+  for (std::size_t c = 0; c < 3; ++c) {
+    const auto [level, swing] = level_and_swing(colour[c]);
+    out[c] = level + swing * glm::dot(normal, to_light_);
+  }
   return out;
+}
+
+std::pair<double, double> Shader::level_and_swing(double colour) const {
+  const double range = (255 - 2 * kColourMargin) * colour;
+  return {kColourMargin + range * (1 + ambient_) / 2, range * (1 - ambient_) / 2};
 }
 
 }  // namespace dendro::raster_primitives

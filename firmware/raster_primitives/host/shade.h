@@ -2,6 +2,7 @@
 
 #include <array>
 #include <glm/vec3.hpp>
+#include <utility>
 #include <vector>
 
 #include "sim/scene/scene.h"
@@ -20,9 +21,11 @@ class Shader {
   /// Of a unit normal in world space; 0..255.
   std::array<double, 3> operator()(const glm::dvec3& normal, const std::vector<double>& colour) const;
 
+  /// The shade of one part of a colour is level + swing · n·L.
+  std::pair<double, double> level_and_swing(double colour) const;
+
   /// Unit, in world space.
   const glm::dvec3& to_light() const { return to_light_; }
-  double ambient() const { return ambient_; }
 
  private:
   glm::dvec3 to_light_{};

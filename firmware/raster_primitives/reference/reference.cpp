@@ -37,6 +37,21 @@ class Renderer {
       }
   }
 
+  void sphere(const ScreenSphere& sphere, std::int32_t number) {
+    const int x_end = std::min(prepared_.width - 1, static_cast<int>(std::floor(sphere.x + sphere.radius)));
+    const int y_end = std::min(prepared_.height - 1, static_cast<int>(std::floor(sphere.y + sphere.radius)));
+    for (int y = std::max(0, static_cast<int>(std::ceil(sphere.y - sphere.radius))); y <= y_end; ++y)
+      for (int x = std::max(0, static_cast<int>(std::ceil(sphere.x - sphere.radius))); x <= x_end; ++x) {
+        const double u = (x - sphere.x) / sphere.radius, v = (y - sphere.y) / sphere.radius;
+        if (u * u + v * v > 1) continue;
+        const double w = std::sqrt(1 - u * u - v * v);
+        const double cosine = u * sphere.light[0] + v * sphere.light[1] + w * sphere.light[2];
+        std::array<double, 3> rgb{};
+        for (std::size_t c = 0; c < 3; ++c) rgb[c] = sphere.level[c] + sphere.swing[c] * cosine;
+        see(x, y, sphere.depth - w * sphere.depth_radius, rgb, number);
+      }
+  }
+
   Reference finish() {
     out_.inner.resize(out_.seen.size());
     const int w = prepared_.width, h = prepared_.height;
@@ -70,6 +85,7 @@ Reference render_reference(const Prepared& prepared) {
   Renderer renderer(prepared);
   std::int32_t number = 0;
   for (const ScreenTriangle& triangle : prepared.triangles) renderer.triangle(triangle, number++);
+  for (const ScreenSphere& sphere : prepared.spheres) renderer.sphere(sphere, number++);
   return renderer.finish();
 }
 

@@ -11,7 +11,7 @@ namespace dendro::raster_primitives {
 struct Reference {
   std::vector<double> depth;       ///< Prepared::farthest where nothing is seen
   std::vector<double> rgb;         ///< 3 per pixel, 0..255
-  std::vector<std::int32_t> seen;  ///< number of what is seen, -1 none
+  std::vector<std::int32_t> seen;  ///< number of what is seen, triangles before spheres; -1 none
   /// The pixel and all its neighbours see one primitive, so that moving its corners by less than a pixel changes nothing but
   /// values.
   std::vector<bool> inner;

@@ -63,6 +63,32 @@ void IntegerPixels::triangle(const TriangleSetup& triangle) {
     }
 }
 
+namespace {
+
+/// Sum of the digits' multiples of S, each cut off on its own.
+std::int64_t multiple(const std::vector<Digit>& digits, std::int64_t square) {
+  std::int64_t sum = 0;
+  for (const Digit& digit : digits)
+    sum += digit.sign * (digit.shift >= 0 ? square << digit.shift : square >> -digit.shift);
+  return sum;
+}
+
+}  // namespace
+
+void IntegerPixels::sphere(const SphereSetup& sphere) {
+  for (int y = 0; y < side; ++y)
+    for (int x = 0; x < side; ++x) {
+      const auto at = static_cast<std::size_t>(y * side + x);
+      const std::int64_t square = sphere.a * x + sphere.b * y + sphere.c - x * x - y * y;
+      const std::int64_t bulge = multiple(sphere.bulge, square);
+      flag[at] = square >= 0 && sphere.depth < depth[at] + bulge;
+      if (!flag[at]) continue;
+      depth[at] = static_cast<std::uint32_t>(sphere.depth - bulge);
+      for (std::size_t c = 0; c < 3; ++c)
+        colour[at][c] = static_cast<std::uint8_t>(value_at(sphere.colour[c], x, y) + multiple(sphere.shine[c], square));
+    }
+}
+
 void expect_same(ArrayPort& port, const IntegerPixels& wanted) {
   for (int y = 0; y < wanted.side; ++y)
     for (int x = 0; x < wanted.side; ++x) {

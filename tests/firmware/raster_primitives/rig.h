@@ -62,6 +62,7 @@ struct IntegerPixels {
   IntegerPixels(const Layout& layout, std::uint32_t farthest, int side = kSide);
 
   void triangle(const TriangleSetup& triangle);
+  void sphere(const SphereSetup& sphere);
 
   Layout layout;
   int side;
