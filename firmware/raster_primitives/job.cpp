@@ -23,11 +23,12 @@ class PrimitivesJob : public Job {
     DENDRO_CHECK(machine.width == prepared_.width && machine.height == prepared_.height, "the monitor shows {}x{}",
                  machine.width, machine.height);
     const Reference wanted = render_reference(prepared_);
-    const std::vector<std::uint32_t> depth = depths(machine);
+    const std::vector<std::uint32_t> depth = field(machine, prepared_.layout.depth, prepared_.layout.depth_bits);
+    const std::vector<std::uint32_t> shadow = field(machine, prepared_.layout.seen, prepared_.layout.shadows ? 1 : 0);
     ErrorReport report;
     const auto width = static_cast<std::size_t>(prepared_.width);
     double squares = 0, worst_colour = 0, worst_shift = 0, worst_sphere = 0;
-    std::int64_t inner = 0;
+    std::int64_t inner = 0, wrong_shadows = 0;
     for (std::size_t i = 0; i < depth.size(); ++i) {
       const bool covered = depth[i] != prepared_.farthest, wanted_covered = wanted.seen[i] >= 0;
       report.covered_pixels += wanted_covered;
@@ -35,10 +36,12 @@ class PrimitivesJob : public Job {
       for (std::size_t c = 0; c < 3; ++c) {
         const double difference = machine.rgb[3 * i + c] - std::round(wanted.rgb[3 * i + c]);
         squares += difference * difference;
-        if (wanted.inner[i]) worst_colour = std::max(worst_colour, std::abs(machine.rgb[3 * i + c] - wanted.rgb[3 * i + c]));
+        if (wanted.inner[i] && (shadow[i] != 0) == wanted.shadow[i])
+          worst_colour = std::max(worst_colour, std::abs(machine.rgb[3 * i + c] - wanted.rgb[3 * i + c]));
       }
       if (!wanted.inner[i]) continue;
       ++inner;
+      wrong_shadows += (shadow[i] != 0) != wanted.shadow[i];
       if (const ScreenSphere* sphere = sphere_of(wanted.seen[i])) {
         worst_sphere = std::max(worst_sphere, std::abs(depth[i] - wanted.depth[i]) / sphere->depth_radius);
         continue;
@@ -54,12 +57,13 @@ class PrimitivesJob : public Job {
     report.extra = {{"inner_pixels", static_cast<double>(inner)},
                     {"inner_colour_error", worst_colour},
                     {"inner_depth_error_pixels", worst_shift},
-                    {"inner_sphere_depth_error_radii", worst_sphere}};
+                    {"inner_sphere_depth_error_radii", worst_sphere},
+                    {"inner_wrong_shadows", static_cast<double>(wrong_shadows)}};
     return report;
   }
 
   std::vector<Layer> layers(const MachineView& machine) const override {
-    const std::vector<std::uint32_t> depth = depths(machine);
+    const std::vector<std::uint32_t> depth = field(machine, prepared_.layout.depth, prepared_.layout.depth_bits);
     const Reference wanted = render_reference(prepared_);
     std::vector<Layer> layers;
     for (const char* name :
@@ -95,11 +99,13 @@ class PrimitivesJob : public Job {
             {"triangles.flat", count(prepared_.flat)},
             {"depth_bits", count(prepared_.layout.depth_bits)},
             {"memory_bits_used", count(prepared_.layout.used())},
+            {"shadows", count(prepared_.shadows.size())},
             {"spheres", count(prepared_.spheres.size())},
             {"spheres.given", count(prepared_.spheres_given)},
             {"host.flops_per_spheres", sphere_flops()},
             {"host.flops_per_triangles",
-             count(kFlopsTriangle) + count(prepared_.vertex_flops) / std::max<double>(1, count(prepared_.set_up.size()))}};
+             count(kFlopsTriangle) + count(prepared_.vertex_flops + kFlopsShadow * prepared_.shadows.size()) /
+                                         std::max<double>(1, count(prepared_.set_up.size()))}};
   }
 
  private:
@@ -114,13 +120,13 @@ class PrimitivesJob : public Job {
     return number < triangles ? nullptr : &prepared_.spheres[static_cast<std::size_t>(number - triangles)];
   }
 
-  std::vector<std::uint32_t> depths(const MachineView& machine) const {
-    const std::uint32_t mask = (1u << prepared_.layout.depth_bits) - 1;
-    std::vector<std::uint32_t> depth;
+  std::vector<std::uint32_t> field(const MachineView& machine, unsigned low, unsigned bits) const {
+    const std::uint32_t mask = (1u << bits) - 1;
+    std::vector<std::uint32_t> values;
     for (int y = 0; y < prepared_.height; ++y)
       for (int x = 0; x < prepared_.width; ++x)
-        depth.push_back(machine.peek(static_cast<std::uint32_t>(y * site_.width + x), prepared_.layout.depth) & mask);
-    return depth;
+        values.push_back(machine.peek(static_cast<std::uint32_t>(y * site_.width + x), low) & mask);
+    return values;
   }
 
   Prepared prepared_;

@@ -19,6 +19,7 @@ std::unique_ptr<Job> make_primitives(const scene::Scene& scene, const MachineTyp
   options.registers = raster_primitives::register_values(layout);
   std::vector<std::string> sources = {"firmware/raster_primitives/pixel_planes/triangles.igc"};
   if (layout.has_spheres()) sources.push_back("firmware/raster_primitives/pixel_planes/spheres.igc");
+  if (layout.shadows) sources.push_back("firmware/raster_primitives/pixel_planes/shadows.igc");
   return raster_primitives::make_job(scene, igc_programs(sources, options), site);
 }
 
@@ -26,11 +27,11 @@ std::unique_ptr<Job> make_primitives(const scene::Scene& scene, const MachineTyp
 
 Algorithm raster_primitives_algorithm() {
   return {"raster_primitives",
-          "smooth triangles and spheres with a depth buffer in pixel memory (FGHS85)",
+          "smooth triangles, spheres and shadows with depths in pixel memory (FGHS85)",
           {"pixel-planes"},
           "firmware/raster_primitives",
           make_primitives,
-          {"depth_bits", "fraction_bits", "patch_steps", "cull", "colours", "background", "spheres", "sphere_digits"}};
+          {"depth_bits", "fraction_bits", "patch_steps", "cull", "colours", "background", "spheres", "sphere_digits", "shadows"}};
 }
 
 }  // namespace dendro::study

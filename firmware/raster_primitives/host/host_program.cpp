@@ -28,11 +28,22 @@ void draw_spheres(HostPort& host, lib::IgcDriver& driver, const Prepared& prepar
   }
 }
 
+void draw_shadows(HostPort& host, lib::IgcDriver& driver, const Prepared& prepared) {
+  if (!prepared.layout.shadows) return;
+  driver.run("clear_shadow");
+  for (const ShadowSetup& shadow : prepared.shadows) {
+    host.compute(flops(kFlopsShadow));
+    send(driver, shadow);
+  }
+  driver.run("darken", prepared.farthest);
+}
+
 }  // namespace
 
 std::map<std::string, unsigned> register_values(const Layout& layout) {
   std::map<std::string, unsigned> values = {
       {"depth_bits", layout.depth_bits}, {"depth", layout.depth}, {"flag", layout.flag}, {"colour", layout.colour}};
+  if (layout.shadows) values["shadow"] = layout.seen;
   if (!layout.has_spheres()) return values;
   values.insert({{"square", layout.square},
                  {"square_bits", layout.square_bits},
@@ -60,6 +71,7 @@ void run(HostPort& host, const Prepared& prepared, const lib::IgcPrograms& progr
     send(driver, triangle);
   }
   draw_spheres(host, driver, prepared);
+  draw_shadows(host, driver, prepared);
   host.phase("finish");
   driver.wait();
 }

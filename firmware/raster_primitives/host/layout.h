@@ -22,8 +22,10 @@ struct Layout {
 
   explicit Layout(unsigned bits = 16) : depth_bits(bits), flag(bits), colour(bits + 1), seen(bits + 25), square(bits + 26) {}
 
+  bool shadows = false;  ///< the bit `seen` says which pixels are in shadow when all is drawn
+
   bool has_spheres() const { return square_bits > 0; }
-  unsigned used() const { return has_spheres() ? square + square_bits : colour + 24; }
+  unsigned used() const { return has_spheres() ? square + square_bits : shadows ? seen + 1 : colour + 24; }
 };
 
 }  // namespace dendro::raster_primitives

@@ -81,6 +81,7 @@ class Preparation {
     for (const std::vector<double>& colour : colours_) check_colour("colours", colour);
     digits_ = static_cast<int>(options_.integer("sphere_digits", 2, 1, 6));
     read_spheres();
+    shadows_ = options_.choice("shadows", "none", {"none", "facing", "all"});
     options_.finish();
     if (scene.objects.empty() && balls_.empty())
       throw UserError(scene_.file, 0, "object", "the scene has no object and no sphere");
@@ -91,6 +92,9 @@ class Preparation {
     std::sort(p_.files.begin(), p_.files.end());
     p_.files.erase(std::unique(p_.files.begin(), p_.files.end()), p_.files.end());
     map_depth();
+    const scene::Affine view = scene::parallel_view(scene_.camera, scene_.image);
+    p_.light = -(view.linear * shader_.to_light());
+    p_.light.z *= p_.depth_scale;
     for (std::size_t k = 0; k < shapes_.size(); ++k) project(k);
     for (const Ball& ball : balls_) project(ball);
     for (const ScreenSphere& sphere : p_.spheres)
@@ -180,7 +184,21 @@ class Preparation {
     p_.vertex_flops += shape.corners.size() * (kFlopsTransformVertex + kFlopsRotateNormal + kFlopsShadeVertex);
     p_.vertex_flops += shape.triangles.size() * kFlopsFacing;
     p_.given += shape.triangles.size();
-    for (const auto& t : shape.triangles) add({{vertices[t[0]], vertices[t[1]], vertices[t[2]]}, number});
+    for (const auto& t : shape.triangles) {
+      add({{vertices[t[0]], vertices[t[1]], vertices[t[2]]}, number});
+      if (shadows_ == "none") continue;
+      const glm::dvec3 normal = glm::cross(shape.corners[t[1]] - shape.corners[t[0]], shape.corners[t[2]] - shape.corners[t[0]]);
+      if (shadows_ == "all" || glm::dot(normal, shader_.to_light()) > 0) cast({&vertices[t[0]], &vertices[t[1]], &vertices[t[2]]});
+    }
+  }
+
+  void cast(const std::array<const ScreenVertex*, 3>& corners) {
+    std::array<glm::dvec3, 3> at;
+    for (std::size_t k = 0; k < 3; ++k) at[k] = {corners[k]->x, corners[k]->y, corners[k]->depth};
+    const auto shadow = set_up_shadow(at, p_.light, p_.rules);
+    if (!shadow) return;
+    p_.shadows.push_back(*shadow);
+    p_.casters.push_back(at);
   }
 
   void project(const Ball& ball) {
@@ -239,6 +257,7 @@ class Preparation {
   int steps_ = 8;
   bool cull_ = true;
   int digits_ = 2;
+  std::string shadows_;
   std::vector<Ball> balls_;
   std::vector<std::vector<double>> colours_;
   std::vector<Shape> shapes_;
@@ -251,6 +270,7 @@ Layout choose_layout(const scene::Scene& scene, const ArraySite& site) {
   scene::Options options = scene.options;
   Layout layout(static_cast<unsigned>(options.integer("depth_bits", 16, 12, 24)));
   if (!options.vectors("spheres", 7).empty()) layout.square_bits = square_bits_for(site.width, site.height);
+  layout.shadows = options.choice("shadows", "none", {"none", "facing", "all"}) != "none";
   if (layout.used() > static_cast<unsigned>(site.memory_bits))
     options.fail("depth_bits", fmt::format("the picture takes {} bits of a pixel; its memory has {}", layout.used(),
                                            site.memory_bits));

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "firmware/raster_primitives/host/layout.h"
+#include "firmware/raster_primitives/host/shadow_setup.h"
 #include "firmware/raster_primitives/host/sphere_setup.h"
 #include "firmware/raster_primitives/host/triangle_setup.h"
 #include "sim/scene/scene.h"
@@ -35,6 +36,9 @@ struct Prepared {
   std::vector<TriangleSetup> set_up;        ///< of those with area on the grid, in their order
   std::vector<ScreenSphere> spheres;        ///< those that can cover a pixel
   std::vector<SphereSetup> sphere_set_up;   ///< of the same
+  std::vector<ShadowSetup> shadows;         ///< of the triangles that face the light, in the picture or not
+  std::vector<std::array<glm::dvec3, 3>> casters;  ///< those triangles: pixels and units
+  glm::dvec3 light{};                       ///< the way the light travels, in pixels and units
   std::uint64_t vertex_flops = 0;           ///< transforms, normals, shades
   std::size_t given = 0;                    ///< triangles of all objects
   std::size_t spheres_given = 0;

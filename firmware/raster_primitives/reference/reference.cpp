@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "firmware/raster_primitives/reference/shadow_reference.h"
+
 namespace dendro::raster_primitives {
 namespace {
 
@@ -53,26 +55,30 @@ class Renderer {
   }
 
   Reference finish() {
+    out_.shadow.assign(out_.seen.size(), false);
+    if (prepared_.layout.shadows) cast_shadows(prepared_, out_);
     out_.inner.resize(out_.seen.size());
     const int w = prepared_.width, h = prepared_.height;
     for (int y = 1; y + 1 < h; ++y)
       for (int x = 1; x + 1 < w; ++x) {
         bool same = true;
         for (int dy = -1; dy <= 1; ++dy)
-          for (int dx = -1; dx <= 1; ++dx) same = same && seen(x + dx, y + dy) == seen(x, y);
-        out_.inner[static_cast<std::size_t>(y * w + x)] = same && seen(x, y) >= 0;
+          for (int dx = -1; dx <= 1; ++dx)
+            same = same && out_.seen[at(x + dx, y + dy)] == out_.seen[at(x, y)] &&
+                   out_.shadow[at(x + dx, y + dy)] == out_.shadow[at(x, y)];
+        out_.inner[at(x, y)] = same && out_.seen[at(x, y)] >= 0;
       }
     return std::move(out_);
   }
 
  private:
-  std::int32_t seen(int x, int y) const { return out_.seen[static_cast<std::size_t>(y * prepared_.width + x)]; }
+  std::size_t at(int x, int y) const { return static_cast<std::size_t>(y * prepared_.width + x); }
 
   void see(int x, int y, double depth, const std::array<double, 3>& rgb, std::int32_t number) {
-    const auto at = static_cast<std::size_t>(y * prepared_.width + x);
-    if (depth >= out_.depth[at]) return;
-    out_.depth[at] = depth, out_.seen[at] = number;
-    std::copy(rgb.begin(), rgb.end(), out_.rgb.begin() + static_cast<std::ptrdiff_t>(3 * at));
+    const std::size_t pixel = at(x, y);
+    if (depth >= out_.depth[pixel]) return;
+    out_.depth[pixel] = depth, out_.seen[pixel] = number;
+    std::copy(rgb.begin(), rgb.end(), out_.rgb.begin() + static_cast<std::ptrdiff_t>(3 * pixel));
   }
 
   const Prepared& prepared_;

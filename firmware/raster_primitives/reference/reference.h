@@ -12,7 +12,8 @@ struct Reference {
   std::vector<double> depth;       ///< Prepared::farthest where nothing is seen
   std::vector<double> rgb;         ///< 3 per pixel, 0..255
   std::vector<std::int32_t> seen;  ///< number of what is seen, triangles before spheres; -1 none
-  /// The pixel and all its neighbours see one primitive, so that moving its corners by less than a pixel changes nothing but
+  std::vector<bool> shadow;        ///< the colour is halved
+  /// The pixel and all its neighbours see one primitive, all in shadow or none, so that moving its corners by less than a pixel changes nothing but
   /// values.
   std::vector<bool> inner;
 };

@@ -46,6 +46,7 @@ IntegerPixels::IntegerPixels(const Layout& l, std::uint32_t farthest, int s) : l
   depth.assign(pixels, farthest);
   colour.assign(pixels, {});
   flag.assign(pixels, false);
+  shadow = flag;
 }
 
 void IntegerPixels::triangle(const TriangleSetup& triangle) {
@@ -87,6 +88,32 @@ void IntegerPixels::sphere(const SphereSetup& sphere) {
       for (std::size_t c = 0; c < 3; ++c)
         colour[at][c] = static_cast<std::uint8_t>(value_at(sphere.colour[c], x, y) + multiple(sphere.shine[c], square));
     }
+}
+
+bool is_on_side(const ShadowPlane& plane, int x, int y, std::int64_t depth) {
+  const std::int64_t value = value_at(plane.stream, x, y);
+  switch (plane.side) {
+    case ShadowPlane::Side::kBehind: return value < depth;
+    case ShadowPlane::Side::kBefore: return value >= depth;
+    case ShadowPlane::Side::kBeside: return value >= 0;
+    default: return value < 0;
+  }
+}
+
+void IntegerPixels::cast(const ShadowSetup& caster) {
+  for (int y = 0; y < side; ++y)
+    for (int x = 0; x < side; ++x) {
+      const auto at = static_cast<std::size_t>(y * side + x);
+      flag[at] = true;
+      for (const ShadowPlane& plane : caster.planes) flag[at] = flag[at] && is_on_side(plane, x, y, depth[at]);
+      shadow[at] = shadow[at] || flag[at];
+    }
+}
+
+void IntegerPixels::darken(std::uint32_t farthest) {
+  for (std::size_t at = 0; at < depth.size(); ++at)
+    if (shadow[at] && depth[at] != farthest)
+      for (std::uint8_t& part : colour[at]) part = static_cast<std::uint8_t>(part / 2);
 }
 
 void expect_same(ArrayPort& port, const IntegerPixels& wanted) {

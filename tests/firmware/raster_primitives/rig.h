@@ -57,18 +57,24 @@ class ArrayPort : public HostPort {
 /// floor(T) at a pixel, from the coefficients as the translator rounds them.
 std::int64_t value_at(const Stream& stream, int x, int y);
 
+/// The pixel's depth lies on the plane's side of shadow.
+bool is_on_side(const ShadowPlane& plane, int x, int y, std::int64_t depth);
+
 /// What the micro-programs do to pixels, in integers.
 struct IntegerPixels {
   IntegerPixels(const Layout& layout, std::uint32_t farthest, int side = kSide);
 
   void triangle(const TriangleSetup& triangle);
   void sphere(const SphereSetup& sphere);
+  /// Of one triangle, into `shadow`.
+  void cast(const ShadowSetup& caster);
+  void darken(std::uint32_t farthest);
 
   Layout layout;
   int side;
   std::vector<std::uint32_t> depth;
   std::vector<std::array<std::uint8_t, 3>> colour;
-  std::vector<bool> flag;
+  std::vector<bool> flag, shadow;
 };
 
 /// Fails for the first pixel whose fields are others.
