@@ -3,6 +3,8 @@
 #include <memory>
 
 #include "firmware/tools/assembler.h"
+#include "models/machines/pixel_planes/clocked.h"
+#include "models/machines/pixel_planes/pixel_planes_map.h"
 #include "models/machines/rds3000/devices.h"
 #include "models/machines/rds3000/function.h"
 #include "models/parts/am2903/am2903.h"
@@ -69,6 +71,48 @@ void microcode_loop_at_function(benchmark::State& state) {
   state.SetItemsProcessed(static_cast<std::int64_t>(machine.words()));
 }
 BENCHMARK(microcode_loop_at_function);
+
+// 512 x 512 pixels compare a plane with 16 bits of memory and store it, over and over; items are clocks. SystemC runs
+// once per process.
+void pixel_planes_at_clocked(benchmark::State& state) {
+  using igc::Function;
+  using igc::Operand;
+  std::vector<igc::MicroWord> program(10);
+  program[0].function = Function::kSetEnable;
+  program[1].function = Function::kLoad;
+  for (const int at : {2, 5}) {
+    program[at].loop = igc::LoopCount::kFraction;
+    program[at + 1].loop = igc::LoopCount::kNumber, program[at + 1].loop_number = 16;
+    program[at].tree = program[at + 1].tree = program[at].loop_end = program[at + 1].loop_end = true;
+    program[at + 1].indexed_a = true;
+    program[at + 1].x = Operand::kTree, program[at + 1].y = Operand::kPortA;
+  }
+  program[3].read_a = true;
+  program[3].function = Function::kBorrow;
+  program[4].function = Function::kAndCarry;
+  program[6].write_a = true;
+  program[7].end = true;
+  pixel_planes::Spec spec;
+  spec.setup_clocks = 0;
+  spec.host.word_ps = 1;
+  const std::unique_ptr<Machine> machine = pixel_planes::make_clocked(spec, {});
+  igc::Header header;
+  header.fraction = 10;
+  header.expression = true;
+  for (auto _ : state)
+    machine->run([&](HostPort& host) {
+      for (std::uint32_t i = 0; i < 2 * program.size(); ++i)
+        host.write(i, static_cast<std::uint32_t>(igc::pack(program[i / 2]) >> (i % 2 * 32)), 0);
+      for (std::uint32_t plane = 0; plane < 10000; ++plane) {
+        // Small numbers in single precision, different in every plane.
+        const std::uint32_t words[] = {igc::pack(header), 0x3E000000 + (plane << 8), 0xBE800000 - (plane << 7), 0x45000000 + plane};
+        host.dma_to(pixel_planes::kFifo, words, 4, 0);
+      }
+    });
+  state.SetItemsProcessed(machine->cycles());
+  state.counters["busy"] = static_cast<double>(machine->instructions()) / static_cast<double>(machine->cycles());
+}
+BENCHMARK(pixel_planes_at_clocked)->Iterations(1)->Unit(benchmark::kMillisecond);
 
 }  // namespace
 }  // namespace dendro

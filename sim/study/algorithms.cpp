@@ -1,5 +1,7 @@
 #include "sim/study/algorithms.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 
 #include "firmware/half_space/job.h"
@@ -198,6 +200,12 @@ std::vector<Firmware> firmware_list() {
       list.push_back({source.name, source.machine, source.path, pack, base::sha256(tools::write_ucode(ucode)),
                       ucode.words.size()});
     }
+  }
+  for (const int ports : {1, 2}) {
+    half_space::ArraySite site;
+    site.ports = ports;
+    const lib::IgcPrograms programs = planes_programs(site, {});
+    list.push_back({"half_space", kPixelPlanes, programs.name, fmt::format("{}p", ports), programs.sha256, programs.words.size()});
   }
   return list;
 }

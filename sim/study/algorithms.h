@@ -46,7 +46,7 @@ struct Firmware {
   std::string name;  ///< "half_space"
   std::string machine;
   std::string path;    ///< of its source below the repository's root
-  std::string pack;    ///< "none" or "full"
+  std::string pack;    ///< "none" or "full"; pixel arrays: "1p" or "2p", the ports it is for
   std::string sha256;  ///< of its .ucode text
   std::size_t words = 0;
 };

@@ -15,7 +15,7 @@ struct Work {
 };
 
 /// What each machine is measured on.
-constexpr Work kWorks[] = {{"rds3000", "icosahedron"}};
+constexpr Work kWorks[] = {{"rds3000", "icosahedron"}, {"pixel-planes", "grove"}};
 
 BenchRow best_of(const RunRequest& request, int repeats, Progress* progress) {
   BenchRow best{request.type->name, level_name(request.level), request.file.scene.name};

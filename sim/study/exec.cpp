@@ -66,6 +66,8 @@ Prepared prepare(const Catalogue& catalogue, const ExecArguments& arguments) {
   p.preset = exec_preset(catalogue, arguments);
   p.type = catalogue.machine(p.preset.machine);
   p.level = level_of(arguments.level, *p.type);
+  if (p.preset.parameters.find("processor.tick_ns") == nullptr)
+    throw UserError(p.preset.machine + " has no processor that runs a program by itself: its host sends it commands");
   p.ucode = load_ucode(arguments, p.preset.parameters);
   if (p.ucode.machine != p.type->name)
     throw UserError(arguments.program, 0, "",

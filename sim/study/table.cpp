@@ -77,6 +77,21 @@ bool TableRow::inside() const {
   return published && low && high && *published >= *low && *published <= *high;
 }
 
+std::vector<std::string> settings_for(const TableContext& context, const std::string& machine) {
+  const auto has = [&](const std::string& name, const std::string& key) {
+    return config::load_preset(name, context.catalogue.presets(), {}).parameters.find(key) != nullptr;
+  };
+  std::vector<std::string> settings;
+  for (const std::string& setting : context.options.settings) {
+    const std::string key = config::split_setting(setting).first, start = "parameters.";
+    bool foreign = key.compare(0, start.size(), start) == 0 && !has(machine, key.substr(start.size()));
+    foreign = foreign && std::any_of(context.catalogue.machines.begin(), context.catalogue.machines.end(),
+                                     [&](const MachineType& type) { return has(type.name, key.substr(start.size())); });
+    if (!foreign) settings.push_back(setting);
+  }
+  return settings;
+}
+
 const std::vector<PaperTable>& paper_tables() {
   static const std::vector<PaperTable> tables = {fg86_table(), fghs85_table()};
   return tables;

@@ -41,6 +41,9 @@ struct TableContext {
   Progress* progress;
 };
 
+/// The settings without those of parameters that this machine lacks and another of the catalogue has.
+std::vector<std::string> settings_for(const TableContext& context, const std::string& machine);
+
 /// The table of one paper.
 struct PaperTable {
   std::string key;                ///< "FG86"

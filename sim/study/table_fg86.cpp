@@ -9,6 +9,7 @@
 #include "sim/study/exec.h"
 #include "sim/study/table.h"
 #include "sim/study/table_fg86_hulls.h"
+#include "sim/study/table_fg86_planes.h"
 
 namespace dendro::study {
 namespace {
@@ -62,7 +63,7 @@ RunRequest timed_request(const TableContext& context, const std::vector<std::str
   RunArguments arguments;
   arguments.scene = "icosahedron";
   arguments.level = context.options.level;
-  arguments.settings = context.options.settings;
+  arguments.settings = settings_for(context, "rds3000");
   arguments.settings.insert(arguments.settings.end(), settings.begin(), settings.end());
   RunRequest request = prepare_run(context.catalogue, arguments);
   if (request.level == Level::kFunction)
@@ -230,7 +231,7 @@ double additions_per_visit(const TableContext& context, const std::string& pack)
   RunArguments arguments;
   arguments.scene = "icosahedron";
   arguments.level = "function";
-  arguments.settings = context.options.settings;
+  arguments.settings = settings_for(context, "rds3000");
   arguments.settings.push_back("parameters.microcode.pack=\"" + pack + "\"");
   RunRequest request = prepare_run(context.catalogue, arguments);
   const tools::Ucode program = half_space_program(request.preset.parameters);
@@ -276,6 +277,8 @@ std::vector<TableRow> make(const TableContext& context) {
   rows.push_back(load_row(boxed, metrics[1], boxed.intervals[1]));
   rows.push_back(addition_row(context));
   for (TableRow& row : fg86_hull_rows(context)) rows.push_back(std::move(row));
+  const TableRow picture = rows[1];
+  for (TableRow& row : fg86_planes_rows(context, picture)) rows.push_back(std::move(row));
   return rows;
 }
 
@@ -288,7 +291,9 @@ PaperTable fg86_table() {
            "FG86-A3: a microprogram that waits for a product",
            "FG86-A17: the icosahedron at level function, microcode packed and not",
            "FG86-A12, A18, A20: trees grown with 3 to 8 start normals, their splits counted",
-           "FG86-A33, A34: shipped scenes at level function, their pixel visits and merges"},
+           "FG86-A33, A34: shipped scenes at level function, their pixel visits and merges",
+           "FG86-A22, A23, A25: Figure 5 and the grove on Pixel-Planes, every variant and over every assumption",
+           "FG86-A24, A38: Figure 5 at two sizes on Pixel-Planes; the icosahedron there"},
           make,
           [](const TableContext& context) { check_run(timed_request(context, {})); }};
 }

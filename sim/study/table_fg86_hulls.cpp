@@ -138,7 +138,7 @@ RunOutput run_at_function(const TableContext& context, const std::string& scene)
   RunArguments arguments;
   arguments.scene = scene;
   arguments.level = "function";
-  arguments.settings = context.options.settings;
+  arguments.settings = settings_for(context, "rds3000");
   RunRequest request = prepare_run(context.catalogue, arguments);
   const bool several = scene == "figure5" || scene == "grove";
   const tools::Ucode program =

@@ -13,7 +13,7 @@ namespace dendro::half_space {
 namespace {
 
 constexpr unsigned kColourBits = 24, kIndexBits = 12;
-constexpr unsigned kMostStreamBits = 62;
+constexpr unsigned kMostStreamBits = 48;  // a plane beyond moves by less than 2^-11 of a pixel over all depths
 constexpr double kFlopsOfCorners = 4 * 4;  // depth at four corners
 
 int log2_of(int side) {
@@ -93,6 +93,7 @@ class Preparation {
         throw UserError(at.file, at.line, key, fmt::format("{} is more than the {} pixels of the array", side, most));
   }
 
+  /// ASSUMED DEV-082
   void read_streams() {
     const int usual = std::max(log2_of(site_.width), log2_of(site_.height)) + 1;
     fraction_ = static_cast<unsigned>(options_.integer("fraction_bits", usual, 0, 20));
@@ -272,7 +273,8 @@ StreamPlane make_stream_plane(const ScreenPlane& plane, const ArraySite& site, c
     out.expression = {static_cast<float>(-plane.a / plane.c), static_cast<float>(-plane.b / plane.c),
                       static_cast<float>(-plane.d / plane.c)};
     const Range range = over_array(out.expression, site);
-    const bool finite = std::isfinite(range.low) && std::isfinite(range.high);
+    const lib::Expression& e = out.expression;
+    const bool finite = std::isfinite(e.a) && std::isfinite(e.b) && std::isfinite(e.c);
     out.guard = finite ? std::max(least_guard, guard_for(range.low, range.high, layout.depth_bits)) : 64;
     if (fraction + layout.depth_bits + out.guard <= kMostStreamBits && out.guard < 64) return out;
   }

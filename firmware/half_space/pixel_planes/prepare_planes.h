@@ -22,7 +22,7 @@ struct ArraySite {
 enum class StreamVariant { kTwoStream, kScratch };  ///< how a plane gets into its register
 enum class Colouring { kRecolour, kIndex };         ///< how a front plane's colour gets into the picture
 
-/// Bits of a pixel and how they are used.
+/// Bits of a pixel and how they are used.  ASSUMED DEV-083
 struct PixelLayout {
   unsigned depth_bits = 16;
   unsigned front = 0, back = 16, nearest = 32, colour = 48, scratch = 72, index = 72;

@@ -16,7 +16,7 @@ struct ShadowPlane {
   Stream stream;
 };
 
-/// The shadow of a triangle: the first plane is its own, moved away from the light by `bias` units.
+/// The shadow of a triangle, ASSUMED DEV-098: the first plane is its own, moved away from the light by `bias` units.
 struct ShadowSetup {
   std::array<ShadowPlane, 4> planes;
   double a = 0, b = 0, c = 0;  ///< of the triangle's plane, before it is moved

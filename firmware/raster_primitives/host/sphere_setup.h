@@ -22,7 +22,8 @@ struct Digit {
   int sign = 1, shift = 0;
 };
 
-/// A sphere as it is sent. S = r^2 - d^2 in pixels, with the centre on half pixels and r^2 rounded so that S is whole.
+/// A sphere as it is sent: a paraboloid, whose depth and shade are linear in x, y and S.  ASSUMED DEV-097
+/// S = r^2 - d^2 in pixels, with the centre on half pixels and r^2 rounded so that S is whole.
 struct SphereSetup {
   std::int64_t a = 0, b = 0, c = 0;  ///< S = a·x + b·y + c - x^2 - y^2
   unsigned bits = 0;                 ///< of the largest S

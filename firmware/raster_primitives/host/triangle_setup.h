@@ -20,7 +20,7 @@ struct ScreenVertex {
   std::array<double, 3> colour{};
 };
 
-/// What the host needs to know to set up triangles.
+/// What the host needs to know to set up triangles.  ASSUMED DEV-095
 struct TriangleRules {
   int width = 512, height = 512;  ///< of the array
   unsigned depth_bits = 16;

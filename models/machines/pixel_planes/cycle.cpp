@@ -14,13 +14,14 @@ CycleMachine::CycleMachine(const Spec& spec, const MachineOptions& options)
 
 void CycleMachine::run(const std::function<void(HostPort&)>& host_program) {
   host_program(*this);
+  if (device_.lacks_words()) throw Device::never_idle();
   end_ = std::max(clock_at(now_ps_), timing_.idle_from());
   timing_.finish(end_);
 }
 
 std::uint32_t CycleMachine::read(std::uint32_t address, unsigned) {
   spend(spec_.host.word_ps);
-  if (address != kStatus) return 0;
+  if (address != kStatus) return device_.read(address);
   time_read_ = true;
   return command_words_ > 0 || now_ps_ / spec_.tick_ps < timing_.idle_from() ? 1 : 0;
 }
@@ -30,6 +31,8 @@ void CycleMachine::write(std::uint32_t address, std::uint32_t value, unsigned) {
   if (address == kFifo) {
     now_ps_ = timing_.offer_word(now_ps_);
     ++command_words_;
+  } else if (address < kControlStoreEnd) {
+    check_not_in_use(address);
   }
   const auto done = device_.write(address, value);
   if (!done) return;
@@ -37,9 +40,23 @@ void CycleMachine::write(std::uint32_t address, std::uint32_t value, unsigned) {
   const CommandTimes times = timing_.command(command_words_, header.expression && !header.register_write, done->words);
   command_words_ = 0;
   book(phase_of(header), times);
+  if (done->program_words > 0) in_use_.push_back({header.entry, done->program_words, times.free});
   if (options_.progress) options_.progress(times.free);
   if (options_.tick_limit > 0 && times.free > options_.tick_limit)
     throw UserError(fmt::format("the machine has run for {} clocks: the limit is reached", options_.tick_limit));
+}
+
+// A command is carried out when its last word is offered, with the program as it is then.
+void CycleMachine::check_not_in_use(std::uint32_t address) {
+  const std::int64_t now = now_ps_ / spec_.tick_ps;
+  const unsigned word = address / 2;
+  // What is written in a clock is seen from the next.
+  while (!in_use_.empty() && in_use_.front().free <= now + 1) in_use_.pop_front();
+  for (const InUse& use : in_use_)
+    if ((word - use.entry) % igc::kStoreWords < use.words)
+      throw UserError(fmt::format("word {} of the control store is written while a command that runs it is not done: what comes "
+                                  "out shows at level clocked only",
+                                  word));
 }
 
 void CycleMachine::dma_to(std::uint32_t address, const std::uint32_t* words, std::size_t count, unsigned function,
@@ -54,6 +71,7 @@ void CycleMachine::dma_from(std::uint32_t address, std::uint32_t* words, std::si
 }
 
 void CycleMachine::wait_interrupt() {
+  if (device_.lacks_words()) throw Device::never_idle();
   now_ps_ = std::max(now_ps_, timing_.idle_from() * spec_.tick_ps);
   spend(spec_.host.interrupt_ps);
 }

@@ -37,6 +37,12 @@ class CycleMachine : public Machine, private HostPort {
     std::int64_t from = 0, to = 0;  ///< clocks; a host's stretch ends where the next begins
   };
 
+  /// Words of the control store that a command runs, [entry, entry + words), until clock `free`.
+  struct InUse {
+    unsigned entry = 0, words = 0;
+    std::int64_t free = 0;
+  };
+
   std::uint32_t read(std::uint32_t address, unsigned function) override;
   void write(std::uint32_t address, std::uint32_t value, unsigned function) override;
   void dma_to(std::uint32_t address, const std::uint32_t* words, std::size_t count, unsigned function,
@@ -52,6 +58,7 @@ class CycleMachine : public Machine, private HostPort {
   void spend(std::int64_t ps) { now_ps_ += ps, busy_ps_ += ps; }
   std::string phase_of(const igc::Header& header) const;
   void book(const std::string& name, const CommandTimes& times);
+  void check_not_in_use(std::uint32_t address);
 
   Spec spec_;
   MachineOptions options_;
@@ -60,6 +67,7 @@ class CycleMachine : public Machine, private HostPort {
   std::int64_t now_ps_ = 0, busy_ps_ = 0;
   unsigned command_words_ = 0;  ///< offered of the command that is not whole yet
   std::vector<Stretch> host_, machine_;
+  std::deque<InUse> in_use_;  ///< by commands offered, in order; those that have ended are dropped now and then
   std::int64_t end_ = 0;
   bool time_read_ = false;
 };

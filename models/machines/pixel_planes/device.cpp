@@ -3,7 +3,6 @@
 #include <cstring>
 
 #include "models/machines/pixel_planes/pixel_planes_map.h"
-#include "sim/base/error.h"
 
 namespace dendro::pixel_planes {
 namespace {
@@ -48,10 +47,22 @@ std::optional<Device::Done> Device::write(std::uint32_t address, std::uint32_t v
   return std::nullopt;
 }
 
+UserError Device::never_idle() {
+  return UserError("pixel_planes: the last command lacks words, so the machine never becomes idle");
+}
+
+std::uint32_t Device::read(std::uint32_t address) const {
+  if (address < kControlStoreEnd) return static_cast<std::uint32_t>(controller_.store[address / 2] >> (address % 2 * 32));
+  if (address == kVideoBase) return video_.base;
+  if (address == kVideoSize)
+    return static_cast<std::uint32_t>(video_.width) | static_cast<std::uint32_t>(video_.height) << 16;
+  return 0;
+}
+
 Device::Done Device::carry_out(const igc::Command& command) {
   if (command.header.register_write) {
     controller_.registers[command.header.register_number] = static_cast<std::uint8_t>(command.header.value);
-    return {command, 1};
+    return {command, 1, 0};
   }
   auto found = programs_.find(command.header.entry);
   if (found == programs_.end())
@@ -61,7 +72,7 @@ Device::Done Device::carry_out(const igc::Command& command) {
   if (words == 0)
     throw UserError("the micro-program at word " + std::to_string(command.header.entry) + " sends nothing");
   engine_.execute(found->second, command, controller_);
-  return {command, words};
+  return {command, words, static_cast<unsigned>(found->second.words().size())};
 }
 
 Picture Device::picture() {

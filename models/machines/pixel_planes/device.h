@@ -10,6 +10,7 @@
 #include "models/machines/pixel_planes/pixel_planes_spec.h"
 #include "models/machines/pixel_planes/word_engine.h"
 #include "models/parts/igc/igc.h"
+#include "sim/base/error.h"
 
 namespace dendro::pixel_planes {
 
@@ -33,10 +34,18 @@ class Device {
   struct Done {
     igc::Command command;
     std::uint64_t words = 1;
+    unsigned program_words = 0;  ///< of the control store, from the entry on
   };
 
   /// Throws UserError for a command whose program has no end, or sends no word.
   std::optional<Done> write(std::uint32_t address, std::uint32_t value);
+
+  /// Control store and video registers; 0 elsewhere.
+  std::uint32_t read(std::uint32_t address) const;
+
+  /// What a host that waits for a machine whose last command lacks words would wait for.
+  static UserError never_idle();
+  bool lacks_words() const { return !decoder_.empty(); }
 
   Picture picture();
   std::uint32_t peek(std::uint32_t pixel, unsigned low) {

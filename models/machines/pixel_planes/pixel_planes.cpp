@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "models/machines/pixel_planes/clocked.h"
 #include "models/machines/pixel_planes/cycle.h"
 #include "models/machines/pixel_planes/device.h"
 #include "sim/base/error.h"
@@ -14,7 +15,7 @@ class FunctionPort : public HostPort {
  public:
   explicit FunctionPort(Device& device) : device_(device) {}
 
-  std::uint32_t read(std::uint32_t, unsigned) override { return 0; }
+  std::uint32_t read(std::uint32_t address, unsigned) override { return device_.read(address); }
   void write(std::uint32_t address, std::uint32_t value, unsigned) override {
     if (const auto done = device_.write(address, value)) words_ += done->words;
   }
@@ -22,11 +23,13 @@ class FunctionPort : public HostPort {
               std::uint32_t step) override {
     for (std::size_t i = 0; i < count; ++i) write(address + static_cast<std::uint32_t>(i) * step, words[i], function);
   }
-  void dma_from(std::uint32_t, std::uint32_t* words, std::size_t count, unsigned, std::uint32_t) override {
-    std::fill_n(words, count, 0);
+  void dma_from(std::uint32_t address, std::uint32_t* words, std::size_t count, unsigned, std::uint32_t step) override {
+    for (std::size_t i = 0; i < count; ++i) words[i] = device_.read(address + static_cast<std::uint32_t>(i) * step);
   }
   void command(std::uint32_t) override {}
-  void wait_interrupt() override {}
+  void wait_interrupt() override {
+    if (device_.lacks_words()) throw Device::never_idle();
+  }
   void compute(const Work&) override {}
   void phase(std::string_view) override {}
 
@@ -41,7 +44,10 @@ class FunctionMachine : public Machine {
  public:
   explicit FunctionMachine(const Spec& spec) : spec_(spec), device_(spec, true), port_(device_) {}
 
-  void run(const std::function<void(HostPort&)>& host_program) override { host_program(port_); }
+  void run(const std::function<void(HostPort&)>& host_program) override {
+    host_program(port_);
+    if (device_.lacks_words()) throw Device::never_idle();
+  }
   double clock_hz() const override { return 1e12 / static_cast<double>(spec_.tick_ps); }
   std::int64_t cycles() const override { return 0; }
   std::int64_t machine_cycles() const override { return 0; }
@@ -71,10 +77,11 @@ void check_tree(const Spec& spec, const config::ParameterSet& parameters) {
 
 std::unique_ptr<Machine> make(const config::ParameterSet& parameters, Level level, const MachineOptions& options) {
   const Spec spec = resolve(parameters);
-  check_tree(spec, parameters);
+  if (level != Level::kClocked) check_tree(spec, parameters);
   if (options.cost)
     throw UserError("--cost", 0, "", "in a pixel array every clock is every pixel's: there is no cost by pixel");
   if (level == Level::kFunction) return std::make_unique<FunctionMachine>(spec);
+  if (level == Level::kClocked) return make_clocked(spec, options);
   return std::make_unique<CycleMachine>(spec, options);
 }
 
@@ -85,7 +92,7 @@ MachineType pixel_planes_type() {
   type.name = "pixel-planes";
   type.summary = "Pixel-Planes: 512x512 one-bit processors that evaluate Ax + By + C (FG86's proposal)";
   type.presets = {"pxpl4", "pxpl4-8mhz", "pxpl5"};
-  type.levels = {Level::kFunction, Level::kCycle};
+  type.levels = {Level::kFunction, Level::kCycle, Level::kClocked};
   type.folder = "models/machines/pixel_planes";
   type.make = make;
   return type;

@@ -1,8 +1,8 @@
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "models/machines/pixel_planes/tile_kernels.cpp"
-#include "hwy/foreach_target.h"
+#include <hwy/foreach_target.h>
 // What follows is compiled once per instruction set.
-#include "hwy/highway.h"
+#include <hwy/highway.h>
 #include "models/machines/pixel_planes/tile_kernels.h"
 
 HWY_BEFORE_NAMESPACE();
