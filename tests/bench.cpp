@@ -5,6 +5,8 @@
 #include "firmware/tools/assembler.h"
 #include "models/machines/pixel_planes/clocked.h"
 #include "models/machines/pixel_planes/pixel_planes_map.h"
+#include "models/machines/pixel_planes/device.h"
+#include "models/machines/pixel_planes/pixel_planes.h"
 #include "models/machines/rds3000/devices.h"
 #include "models/machines/rds3000/function.h"
 #include "models/parts/am2903/am2903.h"
@@ -12,6 +14,7 @@
 #include "models/parts/bps32/bps32_isa.h"
 #include "models/parts/dr64/dr64_timing.h"
 #include "models/parts/ik11b/ik11b_isa.h"
+#include "sim/study/run.h"
 
 // Host time of the parts that the levels' speed rests on. Whole runs are measured by `dendro bench`.
 namespace dendro {
@@ -112,6 +115,40 @@ void pixel_planes_at_clocked(benchmark::State& state) {
   state.SetItemsProcessed(machine->cycles());
   state.counters["busy"] = static_cast<double>(machine->instructions()) / static_cast<double>(machine->cycles());
 }
+/// Keeps what a host program writes.
+class Tape : public HostPort {
+ public:
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> words;
+
+  std::uint32_t read(std::uint32_t, unsigned) override { return 0; }
+  void write(std::uint32_t address, std::uint32_t value, unsigned) override { words.emplace_back(address, value); }
+  void dma_to(std::uint32_t address, const std::uint32_t* values, std::size_t count, unsigned, std::uint32_t step) override {
+    for (std::size_t i = 0; i < count; ++i) words.emplace_back(address + static_cast<std::uint32_t>(i) * step, values[i]);
+  }
+  void dma_from(std::uint32_t, std::uint32_t*, std::size_t, unsigned, std::uint32_t) override {}
+  void command(std::uint32_t) override {}
+  void wait_interrupt() override {}
+  void compute(const Work&) override {}
+  void phase(std::string_view) override {}
+};
+
+// The 200 trees of 12 planes of FG86 6.3, 14.4 ms of the machine's time; argument 1: tiles that cannot be seen are left.
+void grove_on_pixel_planes(benchmark::State& state) {
+  const study::Catalogue all{{pixel_planes::pixel_planes_type()}, study::algorithms(), ""};
+  study::RunArguments arguments;
+  arguments.scene = "grove";
+  arguments.machine = "pixel-planes";
+  const study::RunRequest request = study::prepare_run(all, arguments);
+  Tape tape;
+  request.algorithm->make(request.file.scene, *request.type, request.preset.parameters)->run(tape);
+  pixel_planes::Device device(pixel_planes::resolve(request.preset.parameters), state.range(0) != 0);
+  for (auto _ : state) {
+    for (const auto& [address, value] : tape.words) device.write(address, value);
+    benchmark::DoNotOptimize(device.peek(0, 0));
+  }
+}
+BENCHMARK(grove_on_pixel_planes)->Arg(0)->Arg(1)->Unit(benchmark::kMillisecond);
+
 BENCHMARK(pixel_planes_at_clocked)->Iterations(1)->Unit(benchmark::kMillisecond);
 
 }  // namespace
