@@ -207,6 +207,7 @@ std::vector<Firmware> firmware_list() {
     const lib::IgcPrograms programs = planes_programs(site, {});
     list.push_back({"half_space", kPixelPlanes, programs.name, fmt::format("{}p", ports), programs.sha256, programs.words.size()});
   }
+  for (Firmware& firmware : raster_primitives_firmware()) list.push_back(std::move(firmware));
   return list;
 }
 

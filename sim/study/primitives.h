@@ -7,4 +7,7 @@ namespace dendro::study {
 /// FGHS85's primitives on Pixel-Planes.
 Algorithm raster_primitives_algorithm();
 
+/// Its micro-programs, as pictures with none, spheres, shadows, or both need them.
+std::vector<Firmware> raster_primitives_firmware();
+
 }  // namespace dendro::study
