@@ -22,6 +22,26 @@ TEST_F(Primitives, ScenesRunAndAgreeWithTheReferenceExceptAtSilhouettes) {
   }
 }
 
+TEST_F(Primitives, TakeTheSameClocksAndShowTheSameAtEveryLevelWithTime) {
+  for (const char* scene : {"teapot --set raster_primitives.patch_steps=1", "buckyball",
+                            "shadows --set raster_primitives.patch_steps=1"}) {
+    SCOPED_TRACE(scene);
+    json runs[2];
+    for (const bool clocked : {false, true}) {
+      const Result run = dendro(std::string("run ") + scene + " --level " + (clocked ? "clocked" : "cycle") +
+                                " --out o --json o.json --quiet");
+      ASSERT_EQ(0, run.status) << run.err;
+      runs[clocked] = json::parse(read("o.json"));
+      std::filesystem::remove_all(folder_ / "o");
+      std::filesystem::remove(folder_ / "o.json");
+    }
+    EXPECT_EQ(runs[0]["cycles"], runs[1]["cycles"]);
+    EXPECT_EQ(runs[0]["phases"], runs[1]["phases"]);
+    EXPECT_EQ(runs[0]["image"]["sha256"], runs[1]["image"]["sha256"]);
+    EXPECT_EQ(runs[0]["error"], runs[1]["error"]);
+  }
+}
+
 TEST_F(Primitives, AResolvedRunRepeatsItself) {
   ASSERT_EQ(0, dendro("run teapot --set raster_primitives.patch_steps=1 --out a --json a.json --quiet").status);
   const Result again = dendro("run a/resolved.toml --out b --json b.json --quiet");
