@@ -2,6 +2,7 @@
 #include <set>
 #include <sstream>
 
+#include "models/machines/pixel_planes/pixel_planes.h"
 #include "models/machines/rds3000/rds3000.h"
 #include "sim/study/algorithms.h"
 #include "tests/core/study/fake_machine.h"
@@ -27,28 +28,28 @@ std::vector<std::string> keys_in(std::string message) {
 
 TEST_F(OptionKeys, OfEveryAlgorithmAreThoseThatItsJobReads) {
   const std::string mesh = write("m.obj", kTetrahedron);
-  const MachineType type = rds3000::rds3000_type();
-  const Catalogue all{{type}, algorithms(), "/nowhere"};
-  const config::Preset preset = config::load_preset(type.name, all.presets(), {});
+  const std::vector<MachineType> types = {rds3000::rds3000_type(), pixel_planes::pixel_planes_type()};
+  const Catalogue all{types, algorithms(), "/nowhere"};
   for (const Algorithm& algorithm : algorithms()) {
-    if (std::find(algorithm.machines.begin(), algorithm.machines.end(), type.name) ==
-        algorithm.machines.end())
-      continue;
-    // One object and two may be drawn by different programs with keys of their own.
+    // Machines, and one object and two, may be drawn by different programs with keys of their own.
     std::set<std::string> read;
-    for (const int objects : {1, 2}) {
-      std::string text = "algorithm = \"" + algorithm.name +
-                         "\"\n[image]\nwidth = 8\nheight = 8\n[camera]\nheight = 4\nposition = [0, 0, 4]\n";
-      for (int i = 0; i < objects; ++i) text += "[[object]]\nmesh = \"" + mesh + "\"\n";
-      SceneFile file = load_scene(write("s.toml", text), {}, all);
-      file.scene.options.set(std::string(60, 'z'), {std::int64_t{1}, {}});
-      std::string message = "no error";
-      try {
-        algorithm.make(file.scene, type, preset.parameters);
-      } catch (const UserError& error) {
-        message = error.message();
+    for (const MachineType& type : types) {
+      if (std::find(algorithm.machines.begin(), algorithm.machines.end(), type.name) == algorithm.machines.end()) continue;
+      const config::Preset preset = config::load_preset(type.name, all.presets(), {});
+      for (const int objects : {1, 2}) {
+        std::string text = "algorithm = \"" + algorithm.name +
+                           "\"\n[image]\nwidth = 8\nheight = 8\n[camera]\nheight = 4\nposition = [0, 0, 4]\n";
+        for (int i = 0; i < objects; ++i) text += "[[object]]\nmesh = \"" + mesh + "\"\n";
+        SceneFile file = load_scene(write("s.toml", text), {}, all);
+        file.scene.options.set(std::string(60, 'z'), {std::int64_t{1}, {}});
+        std::string message = "no error";
+        try {
+          algorithm.make(file.scene, type, preset.parameters);
+        } catch (const UserError& error) {
+          message = error.message();
+        }
+        for (const std::string& key : keys_in(message)) read.insert(key);
       }
-      for (const std::string& key : keys_in(message)) read.insert(key);
     }
     std::vector<std::string> declared = algorithm.option_keys;
     std::sort(declared.begin(), declared.end());
