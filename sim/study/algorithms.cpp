@@ -15,6 +15,7 @@
 #include "sim/base/error.h"
 #include "sim/base/sha256.h"
 #include "sim/config/document.h"
+#include "sim/study/primitives.h"
 
 namespace dendro::study {
 std::int64_t integer_of(const config::ParameterSet& parameters, const std::string& key) {
@@ -208,6 +209,7 @@ const std::vector<Algorithm>& algorithms() {
         "chunks", "chunk_edge", "chunk_colours", "texture_base", "texture_hurst", "texture_colours", "texels_per_metre",
         "mip", "trunk_base", "trunk_range", "trunk_distance", "fraction_bits", "guard_bits", "edge_fraction_bits", "variant",
         "colouring"}},
+      raster_primitives_algorithm(),
   };
   return list;
 }
@@ -239,6 +241,7 @@ std::vector<Firmware> firmware_list() {
     const lib::IgcPrograms programs = planes_programs(site, {});
     list.push_back({"half_space", kPixelPlanes, programs.name, fmt::format("{}p", ports), programs.sha256, programs.words.size()});
   }
+  for (Firmware& firmware : raster_primitives_firmware()) list.push_back(std::move(firmware));
   return list;
 }
 

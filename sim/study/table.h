@@ -71,5 +71,6 @@ std::string table_text(const std::vector<TableRow>& rows);
 
 /// The paper's tables; each in a file of its own.
 PaperTable fg86_table();
+PaperTable fghs85_table();
 
 }  // namespace dendro::study

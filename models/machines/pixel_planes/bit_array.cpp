@@ -45,6 +45,8 @@ class Group {
     if (word.write_b && ports > 1) write(word.address_b, value, enable);
   }
 
+  bool is_disabled() const { return e_ == 0; }
+
  private:
   std::uint64_t read(unsigned address) const { return address < state_.memory.size() ? state_.memory[address][at_] : 0; }
   void write(unsigned address, std::uint64_t value, std::uint64_t enable) {
@@ -98,24 +100,108 @@ class Group {
   std::uint64_t e_, c_, d_;
 };
 
-/// The bits of the expression for 64 pixels in a row, 64 at a time.
+/// The bits of the expression for 64 pixels in a row. A few are made one by one, more by turning a square of bits.
 class TreeBits {
  public:
-  TreeBits(const igc::Command& command, int x, int y, bool wide) {
-    for (int p = 0; p < 64; ++p) {
-      const Wide value = expression(command, x + p, y);
-      low_[p] = static_cast<std::uint64_t>(value);
-      high_[p] = static_cast<std::uint64_t>(value >> 64);
-    }
-    transpose(low_);
-    if (wide) transpose(high_);
+  TreeBits(const igc::Command& command, int x, int y, bool wide, bool few)
+      : command_(command), x_(x), y_(y), wide_(wide), few_(few && !wide) {}
+
+  std::uint64_t bit(unsigned k) {
+    if (few_) return one(k);
+    if (!turned_) turn();
+    return k < 64 ? low_[k] : high_[std::min(k - 64, 63u)];
   }
 
-  std::uint64_t bit(unsigned k) const { return k < 64 ? low_[k] : high_[std::min(k - 64, 63u)]; }
-
  private:
+  std::uint64_t one(unsigned k) const {
+    const auto step = static_cast<std::uint64_t>(command_.a);
+    auto value = static_cast<std::uint64_t>(expression(command_, x_, y_));
+    std::uint64_t bits = 0;
+    for (int p = 0; p < 64; ++p, value += step) bits |= (value >> k & 1) << p;
+    return bits;
+  }
+
+  void turn() {
+    Wide value = expression(command_, x_, y_);
+    for (int p = 0; p < 64; ++p, value += command_.a) {
+      low_[p] = static_cast<std::uint64_t>(value);
+      if (wide_) high_[p] = static_cast<std::uint64_t>(value >> 64);
+    }
+    transpose(low_);
+    if (wide_) transpose(high_);
+    turned_ = true;
+  }
+
+  const igc::Command& command_;
+  int x_, y_;
+  bool wide_, few_, turned_ = false;
   std::uint64_t low_[64], high_[64];
 };
+
+/// An array word and which bit of the expression it meets; -1: none, or a leading zero.
+struct Step {
+  ArrayWord word;
+  int bit = -1;
+  bool last_enable = false;  ///< no word behind it sets E again
+};
+
+/// Which registers the words behind a place still use.
+struct Live {
+  bool enable = false, carry = false, data = false;
+};
+
+bool is_used(const ArrayWord& w, const Live& live) {
+  const bool enable = w.function == Function::kSetEnable || w.function == Function::kAndCarry ||
+                      w.function == Function::kAndNotCarry;
+  const bool function = w.function != Function::kHold && (enable ? live.enable : live.carry);
+  return w.write_a || w.write_b || function || (w.data != DataOp::kHold && live.data);
+}
+
+/// What a word that is used needs from those before it. Registers that it sets anew are not needed unless it uses them, too.
+Live before(const ArrayWord& w, Live live) {
+  const bool function_live = w.function != Function::kHold && w.function < Function::kLoad ? live.enable : live.carry;
+  const bool data_live = live.data;
+  if (w.function == Function::kSetEnable) live.enable = false;
+  if (w.function == Function::kLoad) live.carry = false;
+  if (w.data != DataOp::kHold && w.data != DataOp::kOrTree) live.data = false;
+  bool x = false, y = false;
+  if (function_live) {
+    live.carry = live.carry || w.function >= Function::kBorrow || w.function == Function::kAndCarry ||
+                 w.function == Function::kAndNotCarry;
+    x = w.function >= Function::kLoad, y = w.function >= Function::kBorrow;
+  }
+  if (data_live && w.data == DataOp::kOrTree) live.data = true;
+  if (w.write_a || w.write_b) {
+    live.enable = true;
+    x = x || w.source != Source::kTree;
+    if (w.source == Source::kSum) y = live.carry = true;
+    if (w.source == Source::kXOrData || w.source == Source::kXAndNotData) live.data = true;
+  }
+  if ((x && w.x == Operand::kData) || (y && w.y == Operand::kData)) live.data = true;
+  return live;
+}
+
+/// The words of a command that change the memory, themselves or through registers; E, C and D need not be right behind it.
+std::vector<Step> steps_of(const std::vector<ArrayWord>& words, int gap) {
+  std::vector<Step> steps;
+  int position = 0;
+  for (const ArrayWord& word : words) {
+    steps.push_back({word, word.tree && position >= gap ? position - gap : -1, false});
+    position = word.tree ? position + 1 : 0;
+  }
+  std::vector<Step> used;
+  Live live;
+  bool set_behind = false;
+  for (auto step = steps.rbegin(); step != steps.rend(); ++step) {
+    if (!is_used(step->word, live)) continue;
+    live = before(step->word, live);
+    step->last_enable = !set_behind;
+    set_behind = set_behind || step->word.function == Function::kSetEnable;
+    used.push_back(*step);
+  }
+  std::reverse(used.begin(), used.end());
+  return used;
+}
 
 }  // namespace
 
@@ -125,21 +211,20 @@ bool expression_bit(const igc::Command& command, int x, int y, unsigned bit) {
 
 void apply_words(const Spec& spec, const igc::Command& command, const std::vector<ArrayWord>& words,
                  ArrayState& state) {
-  const int gap = spec.tree.gap_clocks;
-  // Position of every word in its stream; -1: no tree bit, or a leading zero.
-  std::vector<int> bits;
-  int position = 0, longest = 0;
-  for (const ArrayWord& word : words) {
-    bits.push_back(word.tree && position >= gap ? position - gap : -1);
-    position = word.tree ? position + 1 : 0;
-    longest = std::max(longest, position - gap);
-  }
+  constexpr std::size_t kFew = 4;
+  const std::vector<Step> steps = steps_of(words, spec.tree.gap_clocks);
+  std::size_t tree_bits = 0;
+  int longest = 0;
+  for (const Step& step : steps) tree_bits += step.bit >= 0, longest = std::max(longest, step.bit + 1);
   const int per_row = spec.array.width / 64;
   for (std::size_t at = 0; at < state.enable.size(); ++at) {
     Group group(state, at);
-    const TreeBits tree(command, static_cast<int>(at) % per_row * 64, static_cast<int>(at) / per_row, longest > 64);
-    for (std::size_t n = 0; n < words.size(); ++n)
-      group.apply(words[n], bits[n] >= 0 ? tree.bit(static_cast<unsigned>(bits[n])) : 0, spec.array.ports);
+    TreeBits tree(command, static_cast<int>(at) % per_row * 64, static_cast<int>(at) / per_row, longest > 64,
+                  tree_bits <= kFew);
+    for (const Step& step : steps) {
+      group.apply(step.word, step.bit >= 0 ? tree.bit(static_cast<unsigned>(step.bit)) : 0, spec.array.ports);
+      if (step.last_enable && group.is_disabled()) break;
+    }
   }
 }
 

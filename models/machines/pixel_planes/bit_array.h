@@ -10,7 +10,8 @@
 namespace dendro::pixel_planes {
 
 /// Applies the array words of one command to all pixels, one after another, with the tree's bits in closed form: what any
-/// micro-program does, at the cost of every clock. Streams must not spill into each other.
+/// micro-program does to the memory, clock by clock. Words that cannot change it are left out, so E, C and D are not what they
+/// are in the machine. Streams must not spill into each other.
 void apply_words(const Spec& spec, const igc::Command& command, const std::vector<igc::ArrayWord>& words,
                  ArrayState& state);
 

@@ -1,0 +1,143 @@
+#include "firmware/raster_primitives/job.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "firmware/raster_primitives/host/host_program.h"
+#include "firmware/raster_primitives/reference/reference.h"
+#include "sim/base/check.h"
+
+namespace dendro::raster_primitives {
+namespace {
+
+constexpr double kRounding = 1.5;  ///< of a depth, units: half for what is cut off, one for the coefficients
+
+class PrimitivesJob : public Job {
+ public:
+  PrimitivesJob(const scene::Scene& scene, lib::IgcPrograms programs, const ArraySite& site)
+      : prepared_(prepare(scene, site)), programs_(std::move(programs)), site_(site) {}
+
+  void run(HostPort& host) override { raster_primitives::run(host, prepared_, programs_); }
+
+  ErrorReport compare(const MachineView& machine) const override {
+    DENDRO_CHECK(machine.width == prepared_.width && machine.height == prepared_.height, "the monitor shows {}x{}",
+                 machine.width, machine.height);
+    const Reference wanted = render_reference(prepared_);
+    const std::vector<std::uint32_t> depth = field(machine, prepared_.layout.depth, prepared_.layout.depth_bits);
+    const std::vector<std::uint32_t> shadow = field(machine, prepared_.layout.seen, prepared_.layout.shadows ? 1 : 0);
+    ErrorReport report;
+    const auto width = static_cast<std::size_t>(prepared_.width);
+    double squares = 0, worst_colour = 0, worst_shift = 0, worst_sphere = 0;
+    std::int64_t inner = 0, wrong_shadows = 0;
+    for (std::size_t i = 0; i < depth.size(); ++i) {
+      const bool covered = depth[i] != prepared_.farthest, wanted_covered = wanted.seen[i] >= 0;
+      report.covered_pixels += wanted_covered;
+      report.wrong_pixels += covered != wanted_covered;
+      for (std::size_t c = 0; c < 3; ++c) {
+        const double difference = machine.rgb[3 * i + c] - std::round(wanted.rgb[3 * i + c]);
+        squares += difference * difference;
+        if (wanted.inner[i] && (shadow[i] != 0) == wanted.shadow[i])
+          worst_colour = std::max(worst_colour, std::abs(machine.rgb[3 * i + c] - wanted.rgb[3 * i + c]));
+      }
+      if (!wanted.inner[i]) continue;
+      ++inner;
+      wrong_shadows += (shadow[i] != 0) != wanted.shadow[i];
+      if (const ScreenSphere* sphere = sphere_of(wanted.seen[i])) {
+        worst_sphere = std::max(worst_sphere, std::abs(depth[i] - wanted.depth[i]) / sphere->depth_radius);
+        continue;
+      }
+      const double error = std::abs(depth[i] + 0.5 - wanted.depth[i]);
+      report.max_depth_error = std::max(report.max_depth_error, error);
+      // A corner that was moved moves the depth by so many pixels' worth of its slope.
+      const double slope = std::abs(wanted.depth[i + 1] - wanted.depth[i - 1]) / 2 +
+                           std::abs(wanted.depth[i + width] - wanted.depth[i - width]) / 2;
+      if (error > kRounding) worst_shift = std::max(worst_shift, (error - kRounding) / slope);
+    }
+    if (squares > 0) report.psnr_db = 10 * std::log10(255.0 * 255.0 * 3 * static_cast<double>(depth.size()) / squares);
+    report.extra = {{"inner_pixels", static_cast<double>(inner)},
+                    {"inner_colour_error", worst_colour},
+                    {"inner_depth_error_pixels", worst_shift},
+                    {"inner_sphere_depth_error_radii", worst_sphere},
+                    {"inner_wrong_shadows", static_cast<double>(wrong_shadows)}};
+    return report;
+  }
+
+  std::vector<Layer> layers(const MachineView& machine) const override {
+    const std::vector<std::uint32_t> depth = field(machine, prepared_.layout.depth, prepared_.layout.depth_bits);
+    const Reference wanted = render_reference(prepared_);
+    std::vector<Layer> layers;
+    for (const char* name :
+         {"R", "G", "B", "Z", "reference.R", "reference.G", "reference.B", "reference.Z", "reference.seen"})
+      layers.push_back({name, std::vector<float>(depth.size())});
+    for (std::size_t i = 0; i < depth.size(); ++i) {
+      for (std::size_t c = 0; c < 3; ++c) {
+        layers[c].values[i] = static_cast<float>(machine.rgb[3 * i + c]) / 255.0f;
+        layers[4 + c].values[i] = static_cast<float>(wanted.rgb[3 * i + c] / 255);
+      }
+      layers[3].values[i] = static_cast<float>(depth[i]);
+      layers[7].values[i] = static_cast<float>(wanted.depth[i]);
+      layers[8].values[i] = static_cast<float>(wanted.seen[i] + 1);
+    }
+    return layers;
+  }
+
+  std::vector<std::string> input_files() const override { return prepared_.files; }
+
+  std::vector<FirmwareImage> firmware() const override {
+    FirmwareImage image{programs_.name, programs_.sha256, {}};
+    for (const auto& [name, entry] : programs_.entries) image.symbols["phase_" + entry.phase + "." + name] = entry.at;
+    return {image};
+  }
+
+  std::vector<std::pair<std::string, double>> facts() const override {
+    const auto count = [](auto n) { return static_cast<double>(n); };
+    return {{"triangles", count(prepared_.set_up.size())},
+            {"triangles.given", count(prepared_.given)},
+            {"triangles.facing_away", count(prepared_.facing_away)},
+            {"triangles.outside", count(prepared_.outside)},
+            {"triangles.without_area", count(prepared_.without_area)},
+            {"triangles.flat", count(prepared_.flat)},
+            {"depth_bits", count(prepared_.layout.depth_bits)},
+            {"memory_bits_used", count(prepared_.layout.used())},
+            {"shadows", count(prepared_.shadows.size())},
+            {"spheres", count(prepared_.spheres.size())},
+            {"spheres.given", count(prepared_.spheres_given)},
+            {"host.flops_per_spheres", sphere_flops()},
+            {"host.flops_per_triangles",
+             count(kFlopsTriangle) + count(prepared_.vertex_flops + kFlopsShadow * prepared_.shadows.size()) /
+                                         std::max<double>(1, count(prepared_.set_up.size()))}};
+  }
+
+ private:
+  double sphere_flops() const {
+    double sum = 0;
+    for (const SphereSetup& sphere : prepared_.sphere_set_up) sum += static_cast<double>(flops_of(sphere));
+    return sum / std::max<double>(1, static_cast<double>(prepared_.sphere_set_up.size()));
+  }
+
+  const ScreenSphere* sphere_of(std::int32_t number) const {
+    const auto triangles = static_cast<std::int32_t>(prepared_.triangles.size());
+    return number < triangles ? nullptr : &prepared_.spheres[static_cast<std::size_t>(number - triangles)];
+  }
+
+  std::vector<std::uint32_t> field(const MachineView& machine, unsigned low, unsigned bits) const {
+    const std::uint32_t mask = (1u << bits) - 1;
+    std::vector<std::uint32_t> values;
+    for (int y = 0; y < prepared_.height; ++y)
+      for (int x = 0; x < prepared_.width; ++x)
+        values.push_back(machine.peek(static_cast<std::uint32_t>(y * site_.width + x), low) & mask);
+    return values;
+  }
+
+  Prepared prepared_;
+  lib::IgcPrograms programs_;
+  ArraySite site_;
+};
+
+}  // namespace
+
+std::unique_ptr<Job> make_job(const scene::Scene& scene, lib::IgcPrograms programs, const ArraySite& site) {
+  return std::make_unique<PrimitivesJob>(scene, std::move(programs), site);
+}
+
+}  // namespace dendro::raster_primitives

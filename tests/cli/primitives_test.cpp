@@ -1,0 +1,66 @@
+#include "tests/cli/cli.h"
+
+namespace dendro::cli {
+namespace {
+
+using Primitives = CommandTest;
+using json = nlohmann::json;
+
+TEST_F(Primitives, ScenesRunAndAgreeWithTheReferenceExceptAtSilhouettes) {
+  for (const char* scene : {"teapot --set raster_primitives.patch_steps=3", "buckyball",
+                            "shadows --set raster_primitives.patch_steps=1"}) {
+    SCOPED_TRACE(scene);
+    const Result run = dendro(std::string("run ") + scene + " --out o --json o.json --quiet");
+    ASSERT_EQ(0, run.status) << run.err;
+    const json object = json::parse(read("o.json"));
+    EXPECT_EQ("raster_primitives", object["algorithm"]);
+    EXPECT_LT(0, object["cycles"].get<std::int64_t>());
+    EXPECT_LT(object["error"]["wrong_pixels"].get<double>(), object["error"]["covered_pixels"].get<double>() / 300);
+    EXPECT_GT(object["error"]["psnr_db"].get<double>(), 25);
+    std::filesystem::remove_all(folder_ / "o");
+    std::filesystem::remove(folder_ / "o.json");
+  }
+}
+
+TEST_F(Primitives, TakeTheSameClocksAndShowTheSameAtEveryLevelWithTime) {
+  for (const char* scene : {"teapot --set raster_primitives.patch_steps=1", "buckyball",
+                            "shadows --set raster_primitives.patch_steps=1"}) {
+    SCOPED_TRACE(scene);
+    json runs[2];
+    for (const bool clocked : {false, true}) {
+      const Result run = dendro(std::string("run ") + scene + " --level " + (clocked ? "clocked" : "cycle") +
+                                " --out o --json o.json --quiet");
+      ASSERT_EQ(0, run.status) << run.err;
+      runs[clocked] = json::parse(read("o.json"));
+      std::filesystem::remove_all(folder_ / "o");
+      std::filesystem::remove(folder_ / "o.json");
+    }
+    EXPECT_EQ(runs[0]["cycles"], runs[1]["cycles"]);
+    EXPECT_EQ(runs[0]["phases"], runs[1]["phases"]);
+    EXPECT_EQ(runs[0]["image"]["sha256"], runs[1]["image"]["sha256"]);
+    EXPECT_EQ(runs[0]["error"], runs[1]["error"]);
+  }
+}
+
+TEST_F(Primitives, AResolvedRunRepeatsItself) {
+  ASSERT_EQ(0, dendro("run teapot --set raster_primitives.patch_steps=1 --out a --json a.json --quiet").status);
+  const Result again = dendro("run a/resolved.toml --out b --json b.json --quiet");
+  ASSERT_EQ(0, again.status) << again.err;
+  const json a = json::parse(read("a.json")), b = json::parse(read("b.json"));
+  EXPECT_EQ(a["cycles"], b["cycles"]);
+  EXPECT_EQ(a["image"]["sha256"], b["image"]["sha256"]);
+}
+
+TEST_F(Primitives, WhatCannotBeDrawnIsOneLine) {
+  const std::string run = "run teapot --set ";
+  expect_user_error(run + "image.width=600", "image.width: 600 is outside the array's 1..512 pixels");
+  expect_user_error(run + "raster_primitives.colours=[[2,0,0]]", "raster_primitives.colours: a colour's parts are 0..1");
+  expect_user_error(run + "raster_primitives.spheres=[[0,0,0,0,1,1,1]]", "with a radius above 0");
+  expect_user_error(run + "raster_primitives.spheres=[[900,0,0,950,1,1,1]]", "sphere 1 is too large for the numbers in a pixel");
+  expect_user_error(run + "raster_primitives.sphere=1", "did you mean `spheres`?");
+  expect_user_error(run + "parameters.array.memory_bits=32", "the picture takes 41 bits of a pixel; its memory has 32");
+  expect_user_error("run teapot --machine rds3000", "rds3000 has no firmware for raster_primitives");
+}
+
+}  // namespace
+}  // namespace dendro::cli
