@@ -265,6 +265,14 @@ TEST(R3000Fpu, AnEnabledExceptionInterruptsTheWordItself) {
   EXPECT_EQ(1u << 13, cause_of(rig.state()) & kStatusIm);
 }
 
+TEST(R3000Cp0, TheProcessorIdentificationIsTheSpecs) {
+  Spec spec;
+  spec.processor_id = 0x0220;
+  Rig rig({mfc0(kT0, kPrId), kNopWord}, spec);
+  rig.run(2);
+  EXPECT_EQ(0x0220u, rig.r(kT0));
+}
+
 TEST(R3000Fpu, BranchesOnTheConditionAndMovesWords) {
   Rig rig({cop_word(1, kMtc, kT0, 2), cop_word(1, kMtc, kT0, 4), kNopWord,
            r3010::fp_word(r3010::kSingle, r3010::kCompare + 2, 0, 2, 4), kNopWord, 17u << 26 | 8u << 21 | 1u << 16 | 4,

@@ -231,6 +231,14 @@ TEST(R3010, AnEnabledExceptionChangesOnlyTheCause) {
   EXPECT_EQ(unsigned{kDivideByZero}, s.control >> kCauseShift & 63);
 }
 
+TEST(R3010, ControlRegistersOtherThanZeroAndTheStatusReadZero) {
+  State s;
+  s.control = kCondition;
+  EXPECT_EQ(kRevision, read_control(s, 0));
+  EXPECT_EQ(kCondition, read_control(s, 31));
+  for (unsigned reg = 1; reg < 31; ++reg) EXPECT_EQ(0u, read_control(s, reg));
+}
+
 TEST(R3010, FormatsAndFunctionsThatDoNotExistAreUnimplemented) {
   const std::uint32_t words[] = {fp_word(kDouble, 4, 0, 0), fp_word(kSingle, 13, 0, 0),  // sqrt and trunc.w of MIPS II
                                  fp_word(kSingle, kCvtS, 0, 0), fp_word(kWord, kAdd, 0, 0), fp_word(static_cast<Format>(18), kAdd, 0, 0)};

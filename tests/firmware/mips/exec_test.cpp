@@ -47,6 +47,15 @@ TEST(MipsPrograms, AnEndlessProgramEndsAtItsLimit) {
   EXPECT_NE(std::string::npos, ran.errors.find("(main+0x")) << ran.errors;
 }
 
+TEST(MipsPrograms, TheJsonOfARunHasNoTimeAtFunction) {
+  const std::string json = scratch() + "/run.json";
+  const Ran ran = run(model(elf("hello"), "", "--json " + json) + " </dev/null");
+  ASSERT_EQ(0, ran.status) << ran.errors;
+  const std::string text = read_file(json);
+  for (const char* part : {"\"machine\": \"sgi-4d35\"", "\"level\": \"function\"", "\"cycles\": null", "\"clock_hz\": 36000000", "\"exit_code\": 0"})
+    EXPECT_NE(std::string::npos, text.find(part)) << part << "\n" << text;
+}
+
 TEST(MipsPrograms, CommandsThatCannotDriveTheMachineSaySo) {
   const std::string dendro = DENDRO;
   for (const std::string& command : {dendro + " run icosahedron --machine sgi-4d35", dendro + " levels icosahedron --machine sgi-4d35",
