@@ -29,6 +29,8 @@ TEST(MipsPrograms, MathematicsIsThatOfQemu) { expect_as_qemu("maths", "60"); }
 
 TEST(MipsPrograms, AllocatorPagesAndFilesAreThoseOfQemu) { expect_as_qemu("memory", scratch() + "/data"); }
 
+TEST(MipsPrograms, WhatTheFloatingPointUnitGivesUpOnIsFinishedAsQemuDoesIt) { expect_as_qemu("denormals", ""); }
+
 TEST(MipsPrograms, ReportsFaultsWithPlaceAndCause) {
   struct Case { const char* what; const char* text; };
   for (const Case& c : {Case{"u", "AdEL"}, {"n", "TLBL"}, {"k", "AdEL"}, {"d", "Bp"}, {"r", "RI"}}) {

@@ -340,9 +340,168 @@ open:
         j       done
         nop
 
-# The R3010 interrupts: with Unimplemented set the operation is finished in software.
+# The R3010 interrupts. An operation that it gave up on is finished in finish.c; what the program itself asked to trap is a
+# fault. The frame is struct frame there. EPC and Cause are kept: reading the program's word may miss the TLB.
 fpu:
-        j       fault
+        lui     $k0, %hi(frame)
+        addiu   $k0, $k0, %lo(frame)
+        sw      $zero, 0($k0)
+        sw      $at, 4($k0)
+        sw      $v0, 8($k0)
+        sw      $v1, 12($k0)
+        sw      $a0, 16($k0)
+        sw      $a1, 20($k0)
+        sw      $a2, 24($k0)
+        sw      $a3, 28($k0)
+        sw      $t0, 32($k0)
+        sw      $t1, 36($k0)
+        sw      $t2, 40($k0)
+        sw      $t3, 44($k0)
+        sw      $t4, 48($k0)
+        sw      $t5, 52($k0)
+        sw      $t6, 56($k0)
+        sw      $t7, 60($k0)
+        sw      $s0, 64($k0)
+        sw      $s1, 68($k0)
+        sw      $s2, 72($k0)
+        sw      $s3, 76($k0)
+        sw      $s4, 80($k0)
+        sw      $s5, 84($k0)
+        sw      $s6, 88($k0)
+        sw      $s7, 92($k0)
+        sw      $t8, 96($k0)
+        sw      $t9, 100($k0)
+        sw      $gp, 112($k0)
+        sw      $sp, 116($k0)
+        sw      $fp, 120($k0)
+        sw      $ra, 124($k0)
+        swc1    $f0, 128($k0)
+        swc1    $f1, 132($k0)
+        swc1    $f2, 136($k0)
+        swc1    $f3, 140($k0)
+        swc1    $f4, 144($k0)
+        swc1    $f5, 148($k0)
+        swc1    $f6, 152($k0)
+        swc1    $f7, 156($k0)
+        swc1    $f8, 160($k0)
+        swc1    $f9, 164($k0)
+        swc1    $f10, 168($k0)
+        swc1    $f11, 172($k0)
+        swc1    $f12, 176($k0)
+        swc1    $f13, 180($k0)
+        swc1    $f14, 184($k0)
+        swc1    $f15, 188($k0)
+        swc1    $f16, 192($k0)
+        swc1    $f17, 196($k0)
+        swc1    $f18, 200($k0)
+        swc1    $f19, 204($k0)
+        swc1    $f20, 208($k0)
+        swc1    $f21, 212($k0)
+        swc1    $f22, 216($k0)
+        swc1    $f23, 220($k0)
+        swc1    $f24, 224($k0)
+        swc1    $f25, 228($k0)
+        swc1    $f26, 232($k0)
+        swc1    $f27, 236($k0)
+        swc1    $f28, 240($k0)
+        swc1    $f29, 244($k0)
+        swc1    $f30, 248($k0)
+        swc1    $f31, 252($k0)
+        cfc1    $t0, $31
+        mfhi    $s0
+        mflo    $s1
+        sw      $t0, 256($k0)
+        mfc0    $t0, epc
+        mfc0    $t1, cause
+        sw      $t0, 260($k0)
+        sw      $t1, 264($k0)
+        ctc1    $zero, $31              # lets go of the line
+        lui     $sp, %hi(stack_end)
+        addiu   $sp, $sp, %lo(stack_end)
+        move    $s2, $k0
+        jal     finish_operation
+        move    $a0, $k0
+        move    $k0, $s2
+        beq     $v0, $zero, unfinished
+        lw      $t0, 256($k0)
+        mthi    $s0
+        mtlo    $s1
+        ctc1    $t0, $31
+        lwc1    $f0, 128($k0)
+        lwc1    $f1, 132($k0)
+        lwc1    $f2, 136($k0)
+        lwc1    $f3, 140($k0)
+        lwc1    $f4, 144($k0)
+        lwc1    $f5, 148($k0)
+        lwc1    $f6, 152($k0)
+        lwc1    $f7, 156($k0)
+        lwc1    $f8, 160($k0)
+        lwc1    $f9, 164($k0)
+        lwc1    $f10, 168($k0)
+        lwc1    $f11, 172($k0)
+        lwc1    $f12, 176($k0)
+        lwc1    $f13, 180($k0)
+        lwc1    $f14, 184($k0)
+        lwc1    $f15, 188($k0)
+        lwc1    $f16, 192($k0)
+        lwc1    $f17, 196($k0)
+        lwc1    $f18, 200($k0)
+        lwc1    $f19, 204($k0)
+        lwc1    $f20, 208($k0)
+        lwc1    $f21, 212($k0)
+        lwc1    $f22, 216($k0)
+        lwc1    $f23, 220($k0)
+        lwc1    $f24, 224($k0)
+        lwc1    $f25, 228($k0)
+        lwc1    $f26, 232($k0)
+        lwc1    $f27, 236($k0)
+        lwc1    $f28, 240($k0)
+        lwc1    $f29, 244($k0)
+        lwc1    $f30, 248($k0)
+        lwc1    $f31, 252($k0)
+        lw      $at, 4($k0)
+        lw      $v0, 8($k0)
+        lw      $v1, 12($k0)
+        lw      $a0, 16($k0)
+        lw      $a1, 20($k0)
+        lw      $a2, 24($k0)
+        lw      $a3, 28($k0)
+        lw      $t0, 32($k0)
+        lw      $t1, 36($k0)
+        lw      $t2, 40($k0)
+        lw      $t3, 44($k0)
+        lw      $t4, 48($k0)
+        lw      $t5, 52($k0)
+        lw      $t6, 56($k0)
+        lw      $t7, 60($k0)
+        lw      $s0, 64($k0)
+        lw      $s1, 68($k0)
+        lw      $s2, 72($k0)
+        lw      $s3, 76($k0)
+        lw      $s4, 80($k0)
+        lw      $s5, 84($k0)
+        lw      $s6, 88($k0)
+        lw      $s7, 92($k0)
+        lw      $t8, 96($k0)
+        lw      $t9, 100($k0)
+        lw      $gp, 112($k0)
+        lw      $sp, 116($k0)
+        lw      $fp, 120($k0)
+        lw      $ra, 124($k0)
+        lw      $k1, 260($k0)
+        nop
+        jr      $k1
+        rfe
+unfinished:
+        lui     $k1, SERVICE >> 16
+        lw      $t1, 264($k0)
+        lw      $t2, 260($k0)
+        sw      $t1, DENDRO_SERVICE_ARGUMENT($k1)
+        sw      $t2, DENDRO_SERVICE_ARGUMENT+4($k1)
+        sw      $t0, DENDRO_SERVICE_ARGUMENT+12($k1)
+        li      $t0, DENDRO_CALL_FAULT
+        sw      $t0, DENDRO_SERVICE_CALL($k1)
+        b       .
         nop
 
         .bss
@@ -351,3 +510,8 @@ program_break: .space 4
 first_break:   .space 4
 saved:  .space 24
 path:   .space 1028
+frame:  .space 268
+        .balign 8
+        .space 1024
+stack_end:
+        .space 32
