@@ -33,8 +33,17 @@ static char* number(char* end, uint64_t value, unsigned base, int least, int cap
   const char* digits = capitals ? "0123456789ABCDEF" : "0123456789abcdef";
   char* at = end;
   while (value || end - at < least) {
-    *--at = digits[value % base];
-    value /= base;
+    if (base == 16) {
+      *--at = digits[value & 15];
+      value >>= 4;
+    } else if (value >> 32) { /* nine digits for the price of one long division */
+      uint32_t nine = (uint32_t)(value % 1000000000);
+      value /= 1000000000;
+      for (int i = 0; i < 9; ++i, nine /= 10) *--at = digits[nine % 10];
+    } else {
+      *--at = digits[(uint32_t)value % 10];
+      value = (uint32_t)value / 10;
+    }
   }
   return at;
 }
