@@ -166,13 +166,13 @@ std::uint64_t Core<Port>::run_plain(std::uint64_t budget) {
       fault_ = {};
     };
     if (__builtin_expect(good, 1)) switch (d.op) {
-      case Op::kNop: break;
-      case Op::kSll: r[d.rd] = r[d.rt] << d.imm; break;
-      case Op::kSrl: r[d.rd] = r[d.rt] >> d.imm; break;
-      case Op::kSra: r[d.rd] = static_cast<std::uint32_t>(s32(r[d.rt]) >> d.imm); break;
-      case Op::kSllv: r[d.rd] = r[d.rt] << (r[d.rs] & 31); break;
-      case Op::kSrlv: r[d.rd] = r[d.rt] >> (r[d.rs] & 31); break;
-      case Op::kSrav: r[d.rd] = static_cast<std::uint32_t>(s32(r[d.rt]) >> (r[d.rs] & 31)); break;
+      case Op::kNop: goto plain;
+      case Op::kSll: r[d.rd] = r[d.rt] << d.imm; goto plain;
+      case Op::kSrl: r[d.rd] = r[d.rt] >> d.imm; goto plain;
+      case Op::kSra: r[d.rd] = static_cast<std::uint32_t>(s32(r[d.rt]) >> d.imm); goto plain;
+      case Op::kSllv: r[d.rd] = r[d.rt] << (r[d.rs] & 31); goto plain;
+      case Op::kSrlv: r[d.rd] = r[d.rt] >> (r[d.rs] & 31); goto plain;
+      case Op::kSrav: r[d.rd] = static_cast<std::uint32_t>(s32(r[d.rt]) >> (r[d.rs] & 31)); goto plain;
       case Op::kAdd: {
         const std::uint32_t sum = r[d.rs] + r[d.rt];
         good = s32((r[d.rs] ^ sum) & (r[d.rt] ^ sum)) >= 0;
@@ -180,7 +180,7 @@ std::uint64_t Core<Port>::run_plain(std::uint64_t budget) {
         else fault_ = {}, fault_.code = kOv;
         break;
       }
-      case Op::kAddu: r[d.rd] = r[d.rs] + r[d.rt]; break;
+      case Op::kAddu: r[d.rd] = r[d.rs] + r[d.rt]; goto plain;
       case Op::kSub: {
         const std::uint32_t difference = r[d.rs] - r[d.rt];
         good = s32((r[d.rs] ^ r[d.rt]) & (r[d.rs] ^ difference)) >= 0;
@@ -188,13 +188,13 @@ std::uint64_t Core<Port>::run_plain(std::uint64_t budget) {
         else fault_ = {}, fault_.code = kOv;
         break;
       }
-      case Op::kSubu: r[d.rd] = r[d.rs] - r[d.rt]; break;
-      case Op::kAnd: r[d.rd] = r[d.rs] & r[d.rt]; break;
-      case Op::kOr: r[d.rd] = r[d.rs] | r[d.rt]; break;
-      case Op::kXor: r[d.rd] = r[d.rs] ^ r[d.rt]; break;
-      case Op::kNor: r[d.rd] = ~(r[d.rs] | r[d.rt]); break;
-      case Op::kSlt: r[d.rd] = s32(r[d.rs]) < s32(r[d.rt]); break;
-      case Op::kSltu: r[d.rd] = r[d.rs] < r[d.rt]; break;
+      case Op::kSubu: r[d.rd] = r[d.rs] - r[d.rt]; goto plain;
+      case Op::kAnd: r[d.rd] = r[d.rs] & r[d.rt]; goto plain;
+      case Op::kOr: r[d.rd] = r[d.rs] | r[d.rt]; goto plain;
+      case Op::kXor: r[d.rd] = r[d.rs] ^ r[d.rt]; goto plain;
+      case Op::kNor: r[d.rd] = ~(r[d.rs] | r[d.rt]); goto plain;
+      case Op::kSlt: r[d.rd] = s32(r[d.rs]) < s32(r[d.rt]); goto plain;
+      case Op::kSltu: r[d.rd] = r[d.rs] < r[d.rt]; goto plain;
       case Op::kAddi: {
         const std::uint32_t sum = r[d.rs] + d.imm;
         good = s32((r[d.rs] ^ sum) & (d.imm ^ sum)) >= 0;
@@ -202,13 +202,13 @@ std::uint64_t Core<Port>::run_plain(std::uint64_t budget) {
         else fault_ = {}, fault_.code = kOv;
         break;
       }
-      case Op::kAddiu: r[d.rt] = r[d.rs] + d.imm; break;
-      case Op::kSlti: r[d.rt] = s32(r[d.rs]) < s32(d.imm); break;
-      case Op::kSltiu: r[d.rt] = r[d.rs] < d.imm; break;
-      case Op::kAndi: r[d.rt] = r[d.rs] & d.imm; break;
-      case Op::kOri: r[d.rt] = r[d.rs] | d.imm; break;
-      case Op::kXori: r[d.rt] = r[d.rs] ^ d.imm; break;
-      case Op::kLui: r[d.rt] = d.imm; break;
+      case Op::kAddiu: r[d.rt] = r[d.rs] + d.imm; goto plain;
+      case Op::kSlti: r[d.rt] = s32(r[d.rs]) < s32(d.imm); goto plain;
+      case Op::kSltiu: r[d.rt] = r[d.rs] < d.imm; goto plain;
+      case Op::kAndi: r[d.rt] = r[d.rs] & d.imm; goto plain;
+      case Op::kOri: r[d.rt] = r[d.rs] | d.imm; goto plain;
+      case Op::kXori: r[d.rt] = r[d.rs] ^ d.imm; goto plain;
+      case Op::kLui: r[d.rt] = d.imm; goto plain;
       case Op::kMult:
       case Op::kMultu:
       case Op::kDiv:
@@ -233,12 +233,12 @@ std::uint64_t Core<Port>::run_plain(std::uint64_t budget) {
         branch(false);
         next = r[d.rs];
         break;
-      case Op::kBeq: branch(r[d.rs] == r[d.rt]); break;
-      case Op::kBne: branch(r[d.rs] != r[d.rt]); break;
-      case Op::kBlez: branch(s32(r[d.rs]) <= 0); break;
-      case Op::kBgtz: branch(s32(r[d.rs]) > 0); break;
-      case Op::kBltz: branch(s32(r[d.rs]) < 0); break;
-      case Op::kBgez: branch(s32(r[d.rs]) >= 0); break;
+      case Op::kBeq: branch(r[d.rs] == r[d.rt]); goto plain;
+      case Op::kBne: branch(r[d.rs] != r[d.rt]); goto plain;
+      case Op::kBlez: branch(s32(r[d.rs]) <= 0); goto plain;
+      case Op::kBgtz: branch(s32(r[d.rs]) > 0); goto plain;
+      case Op::kBltz: branch(s32(r[d.rs]) < 0); goto plain;
+      case Op::kBgez: branch(s32(r[d.rs]) >= 0); goto plain;
       case Op::kBltzal:
       case Op::kBgezal: {
         const bool taken = (s32(r[d.rs]) < 0) == (d.op == Op::kBltzal);
@@ -327,6 +327,7 @@ std::uint64_t Core<Port>::run_plain(std::uint64_t budget) {
       case Op::kReserved: reserved(), fault_.code = kRi; break;
     }
     if (__builtin_expect(good, 1)) {
+    plain:
       pc = npc;
       npc = next;
     } else {
