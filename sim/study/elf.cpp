@@ -43,12 +43,16 @@ class Reader {
 };
 
 void check_header(const Reader& in, const std::string& bytes) {
-  if (bytes.compare(0, 4, "\x7F" "ELF") != 0) in.wrong("is no ELF file");
+  if (bytes.compare(0, 4,
+                    "\x7F"
+                    "ELF") != 0)
+    in.wrong("is no ELF file");
   in.need(0, kHeaderBytes);
   if (bytes[4] != 1) in.wrong("is a 64-bit ELF file; the R3000 has 32 bits");
   if (bytes[5] != 2) in.wrong("is little-endian; the machine is big-endian (mips-linux-gnu, not mipsel)");
   if (in.half(18) != kMips) in.wrong(fmt::format("is for ELF machine {}, not MIPS (8)", in.half(18)));
-  if (in.half(16) != kExecutable) in.wrong("is not an executable at fixed addresses; link with -static -no-pie");
+  if (in.half(16) != kExecutable)
+    in.wrong("is not an executable at fixed addresses; link with -static -no-pie");
 }
 
 /// The first word that is no MIPS I instruction, or that none was found.
@@ -59,18 +63,21 @@ std::string first_stranger(const Reader& in) {
     if (in.word(s + 4) != 1 || !(in.word(s + 8) & kCode)) continue;
     for (std::uint32_t at = 0; at + 4 <= in.word(s + 20); at += 4) {
       const std::uint32_t word = in.word(in.word(s + 16) + at);
-      if (!r3000::is_mips1(word)) return fmt::format("the first such word is 0x{:08x} at 0x{:08x}", word, in.word(s + 12) + at);
+      if (!r3000::is_mips1(word))
+        return fmt::format("the first such word is 0x{:08x} at 0x{:08x}", word, in.word(s + 12) + at);
     }
   }
   return "though none of its words is";
 }
 
 void check_level(const Reader& in) {
-  static const char* const kLevels[] = {"I", "II", "III", "IV", "V", "32", "64", "32r2", "64r2", "32r6", "64r6"};
+  static const char* const kLevels[] = {"I",  "II",   "III",  "IV",   "V",   "32",
+                                        "64", "32r2", "64r2", "32r6", "64r6"};
   const std::uint32_t level = in.word(36) >> 28;
   if ((in.word(36) & kArchitecture) == 0) return;
   in.wrong(fmt::format("is for MIPS {}, the R3000 is MIPS I (-march=r3000, without libgcc and libc): {}",
-                       level < sizeof kLevels / sizeof *kLevels ? kLevels[level] : "of an unknown level", first_stranger(in)));
+                       level < sizeof kLevels / sizeof *kLevels ? kLevels[level] : "of an unknown level",
+                       first_stranger(in)));
 }
 
 void read_segments(const Reader& in, const std::string& bytes, ElfProgram& program) {
@@ -78,12 +85,14 @@ void read_segments(const Reader& in, const std::string& bytes, ElfProgram& progr
   std::uint64_t total = 0;
   for (unsigned i = 0; i < in.half(44); ++i) {
     const std::size_t p = table + i * kSegmentBytes;
-    const std::uint32_t type = in.word(p), offset = in.word(p + 4), address = in.word(p + 8), file = in.word(p + 16), memory = in.word(p + 20);
+    const std::uint32_t type = in.word(p), offset = in.word(p + 4), address = in.word(p + 8),
+                        file = in.word(p + 16), memory = in.word(p + 20);
     if (type == kDynamic || type == kInterpreter) in.wrong("is linked dynamically; link with -static");
     if (type != kLoad || memory == 0) continue;
     in.need(offset, file);
     total += memory;
-    if (file > memory || total > kLargest || memory > UINT32_MAX - address) in.wrong("a segment's sizes make no sense");
+    if (file > memory || total > kLargest || memory > UINT32_MAX - address)
+      in.wrong("a segment's sizes make no sense");
     ElfProgram::Segment segment;
     segment.address = address;
     segment.bytes.assign(bytes.begin() + offset, bytes.begin() + offset + file);
@@ -103,7 +112,8 @@ void read_symbols(const Reader& in, ElfProgram& program) {
     for (std::uint32_t at = 0; at + kSymbolBytes <= in.word(s + 20); at += kSymbolBytes) {
       const std::size_t symbol = in.word(s + 16) + at;
       if ((in.number(symbol + 12, 1) & 15) == 2)
-        program.functions.push_back({in.word(symbol + 4), in.word(symbol + 8), in.text(names + in.word(symbol))});
+        program.functions.push_back(
+            {in.word(symbol + 4), in.word(symbol + 8), in.text(names + in.word(symbol))});
     }
   }
   std::sort(program.functions.begin(), program.functions.end(),
@@ -113,8 +123,9 @@ void read_symbols(const Reader& in, ElfProgram& program) {
 }  // namespace
 
 std::string ElfProgram::place(std::uint32_t address) const {
-  const auto next = std::upper_bound(functions.begin(), functions.end(), address,
-                                     [](std::uint32_t a, const Symbol& symbol) { return a < symbol.address; });
+  const auto next =
+      std::upper_bound(functions.begin(), functions.end(), address,
+                       [](std::uint32_t a, const Symbol& symbol) { return a < symbol.address; });
   if (next != functions.begin()) {
     const Symbol& symbol = *(next - 1);
     if (address - symbol.address < std::max(symbol.size, 4u))

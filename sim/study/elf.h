@@ -24,8 +24,8 @@ struct ElfProgram {
   std::string place(std::uint32_t address) const;
 };
 
-/// Reads a statically linked big-endian MIPS I executable. Throws UserError naming `path` for anything else; for another
-/// instruction set it says which instruction stands where.
+/// Reads a statically linked big-endian MIPS I executable. Throws UserError naming `path` for anything else;
+/// for another instruction set it says which instruction stands where.
 ElfProgram read_elf(const std::string& bytes, const std::string& path);
 
 }  // namespace dendro::study

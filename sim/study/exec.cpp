@@ -69,7 +69,8 @@ Prepared prepare(const Catalogue& catalogue, const ExecArguments& arguments) {
   p.preset = exec_preset(catalogue, arguments);
   p.type = catalogue.machine(p.preset.machine);
   if (p.type->exec)
-    throw UserError(arguments.program, 0, "", p.type->name + " has no boundary to record yet; programs run by `dendro exec`");
+    throw UserError(arguments.program, 0, "",
+                    p.type->name + " has no boundary to record yet; programs run by `dendro exec`");
   if (!arguments.arguments.empty())
     throw UserError("", 0, arguments.arguments.front(),
                     "a microprogram takes no arguments; give it data in its scratch areas");

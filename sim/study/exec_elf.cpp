@@ -18,7 +18,10 @@
 namespace dendro::study {
 namespace {
 
-constexpr std::uint32_t kFirstPage = 0x00400000, kPageBytes = 4096, kKseg0 = 0x80000000, kPhysical = 0x1FFFFFFF;
+constexpr std::uint32_t kFirstPage = 0x00400000, kPageBytes = 4096, kKseg0 = 0x80000000,
+                        kPhysical = 0x1FFFFFFF;
+/// Where monitor, program and stack still fit, and what the program's part of kuseg and kseg0 can hold.
+constexpr std::int64_t kLeastMemory = 32 << 20, kMostMemory = 256 << 20;
 constexpr std::uint32_t kStackBytes = DENDRO_STACK_BYTES;
 constexpr const char* kMonitor = "mips/monitor.hex";
 
@@ -48,7 +51,8 @@ void put(std::vector<std::uint8_t>& bytes, std::size_t at, std::uint32_t word) {
   for (unsigned i = 0; i < 4; ++i) bytes[at + i] = static_cast<std::uint8_t>(word >> (24 - 8 * i));
 }
 
-/// argc, argv, no environment, no auxiliary vector, as Linux leaves them; `top` is the address behind the stack.
+/// argc, argv, no environment, no auxiliary vector, as Linux leaves them; `top` is the address behind the
+/// stack.
 std::vector<std::uint8_t> first_stack(const std::vector<std::string>& arguments, std::uint32_t top) {
   std::size_t text = 0;
   for (const std::string& argument : arguments) text += argument.size() + 1;
@@ -65,19 +69,23 @@ std::vector<std::uint8_t> first_stack(const std::vector<std::string>& arguments,
   return bytes;
 }
 
-ProgramImage place_program(const ElfProgram& program, const ExecArguments& arguments, std::uint32_t main_bytes) {
+ProgramImage place_program(const ElfProgram& program, const ExecArguments& arguments,
+                           std::uint32_t main_bytes) {
   const std::string& path = arguments.program;
   ProgramImage image;
   image.chunks = monitor_chunks();
   image.start = monitor_start();
   image.program.entry = program.entry;
   image.program.mapped = program.entry < kKseg0;
-  const std::uint32_t base = image.program.mapped ? 0 : kKseg0, lowest = base + kFirstPage, highest = base + main_bytes - kStackBytes;
+  const std::uint32_t base = image.program.mapped ? 0 : kKseg0, lowest = base + kFirstPage,
+                      highest = base + main_bytes - kStackBytes;
   std::uint32_t end = lowest;
   for (const ElfProgram::Segment& segment : program.segments) {
-    if (segment.address < lowest || segment.address > highest || segment.bytes.size() > highest - segment.address)
-      throw UserError(path, 0, "", fmt::format("{} bytes at 0x{:08x} lie outside of 0x{:08x} to 0x{:08x}", segment.bytes.size(),
-                                               segment.address, lowest, highest));
+    if (segment.address < lowest || segment.address > highest ||
+        segment.bytes.size() > highest - segment.address)
+      throw UserError(path, 0, "",
+                      fmt::format("{} bytes at 0x{:08x} lie outside of 0x{:08x} to 0x{:08x}",
+                                  segment.bytes.size(), segment.address, lowest, highest));
     image.chunks.push_back({segment.address & kPhysical, segment.bytes});
     end = std::max(end, static_cast<std::uint32_t>(segment.address + segment.bytes.size()));
   }
@@ -96,8 +104,8 @@ ProgramImage place_program(const ElfProgram& program, const ExecArguments& argum
 std::string fault_text(const HostServices::Fault& fault, const ElfProgram& program) {
   const unsigned code = fault.cause >> 2 & 31;
   const bool slot = fault.cause & r3000::kCauseBd;
-  std::string text = fmt::format("the processor raised {} at {}{}", r3000::exception_name(code), program.place(fault.epc),
-                                 slot ? " or its delay slot" : "");
+  std::string text = fmt::format("the processor raised {} at {}{}", r3000::exception_name(code),
+                                 program.place(fault.epc), slot ? " or its delay slot" : "");
   if (code >= r3000::kMod && code <= r3000::kAdes) text += fmt::format(", address 0x{:08x}", fault.address);
   if (code == r3000::kInt) text += fmt::format(", R3010 control 0x{:08x}", fault.fpu);
   if (code == r3000::kCpu) text += fmt::format(", coprocessor {}", fault.cause >> 28 & 3);
@@ -116,21 +124,29 @@ ExecOutput exec_elf(const Catalogue& catalogue, const ExecArguments& arguments) 
   const config::Preset preset = exec_preset(catalogue, arguments);
   const MachineType& type = *catalogue.machine(preset.machine);
   const Level level = exec_level(arguments, type);
-  if (!arguments.dumps.empty()) throw UserError("--dump", 0, "", type.name + " has no scratchpad; let the program print");
-  if (!arguments.options.vcd_file.empty()) throw UserError("--vcd", 0, "", "waveforms exist at --level clocked only");
+  if (!arguments.dumps.empty())
+    throw UserError("--dump", 0, "", type.name + " has no scratchpad; let the program print");
+  if (!arguments.options.vcd_file.empty())
+    throw UserError("--vcd", 0, "", "waveforms exist at --level clocked only");
   const ElfProgram program = read_elf(config::read_text({false, arguments.program}, {}), arguments.program);
-  const auto main_bytes = static_cast<std::uint32_t>(integer_of(preset.parameters, "memory.main_bytes"));
+  const std::int64_t bytes = integer_of(preset.parameters, "memory.main_bytes");
+  if (bytes < kLeastMemory || bytes > kMostMemory)
+    throw UserError("", 0, "memory.main_bytes",
+                    fmt::format("is {}, allowed are {} to {}", bytes, kLeastMemory, kMostMemory));
+  const auto main_bytes = static_cast<std::uint32_t>(bytes);
   const ProgramImage image = place_program(program, arguments, main_bytes);
   const auto limit = arguments.options.tick_limit == 0 ? kDefaultTickLimit : arguments.options.tick_limit;
   HostServices services;
   const auto start = std::chrono::steady_clock::now();
-  const ProgramResult result = type.exec(preset.parameters, level, image, services, static_cast<std::uint64_t>(limit));
+  const ProgramResult result =
+      type.exec(preset.parameters, level, image, services, static_cast<std::uint64_t>(limit));
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   if (services.fault) throw UserError(arguments.program, 0, "", fault_text(*services.fault, program));
   if (!result.stopped)
-    throw UserError(arguments.program, 0, "",
-                    fmt::format("did not end within {} instructions (--limit); it was at {}, last call from {}", limit,
-                                program.place(result.pc), program.place(result.return_address - 8)));
+    throw UserError(
+        arguments.program, 0, "",
+        fmt::format("did not end within {} instructions (--limit); it was at {}, last call from {}", limit,
+                    program.place(result.pc), program.place(result.return_address - 8)));
   ExecOutput output;
   output.prints_output = true;
   output.exit_code = services.exit_code.value_or(0);

@@ -4,7 +4,8 @@
 
 namespace dendro::study {
 
-/// exec_program() for a machine whose programs are ELF files: in this process, with its standard input and output.
+/// exec_program() for a machine whose programs are ELF files: in this process, with its standard input and
+/// output.
 ExecOutput exec_elf(const Catalogue& catalogue, const ExecArguments& arguments);
 
 }  // namespace dendro::study

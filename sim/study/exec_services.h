@@ -7,7 +7,8 @@
 
 namespace dendro::study {
 
-/// The calls of a program carried out by this process: its own standard input and output, files by their host paths.
+/// The calls of a program carried out by this process: its own standard input and output, files by their host
+/// paths.
 class HostServices : public service_block::Services {
  public:
   struct Fault {
@@ -26,8 +27,10 @@ class HostServices : public service_block::Services {
   std::optional<Fault> fault;  ///< the monitor gave the program up
 
  private:
-  service_block::CallResult open_file(const std::array<std::uint32_t, 4>& a, const std::vector<std::uint8_t>& memory);
-  service_block::CallResult transfer(bool in, const std::array<std::uint32_t, 4>& a, std::vector<std::uint8_t>& memory);
+  service_block::CallResult open_file(const std::array<std::uint32_t, 4>& a,
+                                      const std::vector<std::uint8_t>& memory);
+  service_block::CallResult transfer(bool in, const std::array<std::uint32_t, 4>& a,
+                                     std::vector<std::uint8_t>& memory);
   int host_file(std::uint32_t file) const;
 
   std::map<std::uint32_t, int> files_;  ///< the program's numbers from 3 on

@@ -108,7 +108,9 @@ int __cmpdi2(int64_t a, int64_t b) { return a < b ? 0 : a > b ? 2 : 1; }
 /* Unsigned and 64-bit conversions. To integers they cut off; what does not fit is not defined by C. */
 double __floatunsidf(uint32_t value) { return (int32_t)(value >> 1) * 2.0 + (int32_t)(value & 1); }
 float __floatunsisf(uint32_t value) { return (float)__floatunsidf(value); }
-uint32_t __fixunsdfsi(double x) { return x >= 2147483648.0 ? (uint32_t)(int32_t)(x - 2147483648.0) + 0x80000000u : (uint32_t)(int32_t)x; }
+uint32_t __fixunsdfsi(double x) {
+  return x >= 2147483648.0 ? (uint32_t)(int32_t)(x - 2147483648.0) + 0x80000000u : (uint32_t)(int32_t)x;
+}
 uint32_t __fixunssfsi(float x) { return __fixunsdfsi(x); }
 
 /* One rounding: the two halves are exact, and so is the product. */
@@ -121,7 +123,9 @@ double __floatdidf(int64_t value) {
   return (int32_t)v.high * 4294967296.0 + __floatunsidf(v.low);
 }
 /* More than 53 bits would be rounded twice: what lies below bit 12 becomes one sticky bit first. */
-static uint64_t sticky(uint64_t value) { return value >> 53 ? (value & ~(uint64_t)0xFFF) | (value & 0xFFF ? 0x800 : 0) : value; }
+static uint64_t sticky(uint64_t value) {
+  return value >> 53 ? (value & ~(uint64_t)0xFFF) | (value & 0xFFF ? 0x800 : 0) : value;
+}
 float __floatundisf(uint64_t value) { return (float)__floatundidf(sticky(value)); }
 float __floatdisf(int64_t value) {
   const float size = __floatundisf(magnitude(value));

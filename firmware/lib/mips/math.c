@@ -1,5 +1,6 @@
-/* Elementary functions without square root, truncation or 64-bit arithmetic in hardware. Minimax polynomials on reduced
-   arguments, after the well-known fdlibm scheme (its coefficients). The results' rounding mode is to nearest. */
+/* Elementary functions without square root, truncation or 64-bit arithmetic in hardware. Minimax polynomials
+   on reduced arguments, after the well-known fdlibm scheme (its coefficients). The results' rounding mode is
+   to nearest. */
 #include "firmware/lib/mips/dendro.h"
 
 typedef union {
@@ -47,7 +48,8 @@ static double sin_kernel(double x, double tail) {
   const double z = x * x, v = z * x;
   const double r = 8.33333333332248946124e-03 +
                    z * (-1.98412698298579493134e-04 +
-                        z * (2.75573137070700676789e-06 + z * (-2.50507602534068634195e-08 + z * 1.58969099521155010221e-10)));
+                        z * (2.75573137070700676789e-06 +
+                             z * (-2.50507602534068634195e-08 + z * 1.58969099521155010221e-10)));
   return x - ((z * (0.5 * tail - v * r) - tail) - v * -1.66666666666666324348e-01);
 }
 
@@ -62,9 +64,11 @@ static double cos_kernel(double x, double tail) {
   return w + (((1.0 - w) - half) + (z * r - x * tail));
 }
 
-/* x less the nearest multiple of pi/2, in two parts; pi/2 in pieces whose products with n < 2^20 are exact. Returns n mod 4. */
+/* x less the nearest multiple of pi/2, in two parts; pi/2 in pieces whose products with n < 2^20 are exact.
+ * Returns n mod 4. */
 static int reduce(double x, double* rest, double* tail) {
-  static const double kPieces[] = {1.57079632673412561417e+00, 6.07710050630396597660e-11, 2.02226624871116645580e-21};
+  static const double kPieces[] = {1.57079632673412561417e+00, 6.07710050630396597660e-11,
+                                   2.02226624871116645580e-21};
   const double n = floor(x * 6.36619772367581382433e-01 + 0.5);
   double r = x - n * kPieces[0];
   double w = n * kPieces[1], before = r;
@@ -93,10 +97,10 @@ double sin(double x) { return sine(x, 0); }
 double cos(double x) { return sine(x, 1); }
 
 static double arctangent(double x) { /* x >= 0 */
-  static const double kHigh[] = {4.63647609000806093515e-01, 7.85398163397448278999e-01, 9.82793723247329054082e-01,
-                                 1.57079632679489655800e+00};
-  static const double kLow[] = {2.26987774529616870924e-17, 3.06161699786838301793e-17, 1.39033110312309984516e-17,
-                                6.12323399573676603587e-17};
+  static const double kHigh[] = {4.63647609000806093515e-01, 7.85398163397448278999e-01,
+                                 9.82793723247329054082e-01, 1.57079632679489655800e+00};
+  static const double kLow[] = {2.26987774529616870924e-17, 3.06161699786838301793e-17,
+                                1.39033110312309984516e-17, 6.12323399573676603587e-17};
   int id = -1;
   if (x > 1e18) return kHigh[3];
   if (x < 1e-9) return x;
@@ -115,13 +119,16 @@ static double arctangent(double x) { /* x >= 0 */
     x = -1.0 / x;
   }
   const double z = x * x, w = z * z;
-  const double odd = z * (3.33333333333329318027e-01 +
-                          w * (1.42857142725034663711e-01 +
-                               w * (9.09088713343650656196e-02 +
-                                    w * (6.66107313738753120669e-02 + w * (4.97687799461593236017e-02 + w * 1.62858201153657823623e-02)))));
+  const double odd =
+      z * (3.33333333333329318027e-01 +
+           w * (1.42857142725034663711e-01 +
+                w * (9.09088713343650656196e-02 +
+                     w * (6.66107313738753120669e-02 +
+                          w * (4.97687799461593236017e-02 + w * 1.62858201153657823623e-02)))));
   const double even = w * (-1.99999999998764832476e-01 +
                            w * (-1.11111104054623557880e-01 +
-                                w * (-7.69187620504482999495e-02 + w * (-5.83357013379057348645e-02 + w * -3.65315727442169155270e-02))));
+                                w * (-7.69187620504482999495e-02 +
+                                     w * (-5.83357013379057348645e-02 + w * -3.65315727442169155270e-02))));
   if (id < 0) return x - x * (odd + even);
   return kHigh[id] - ((x * (odd + even) - kLow[id]) - x);
 }
@@ -141,7 +148,8 @@ double atan2(double y, double x) {
   } else if (ay == infinity()) {
     angle = 0.5 * kPi;
   } else {
-    const int above = (int)(high_of(ay) >> 20) - (int)(high_of(ax) >> 20); /* the quotient would leave the normal range */
+    const int above =
+        (int)(high_of(ay) >> 20) - (int)(high_of(ax) >> 20); /* the quotient would leave the normal range */
     angle = above > 60 ? 0.5 * kPi : above < -900 ? 0 : arctangent(ay / ax);
   }
   if (left) angle = kPi - (angle - kPiLow);
@@ -166,10 +174,12 @@ double exp(double x) {
   if (x < -708.396418532264106224) return 0;
   if (x < 1e-17 && x > -1e-17) return 1;
   const double n = floor(x * 1.44269504088896338700e+00 + 0.5);
-  const double high = x - n * 6.93147180369123816490e-01, low = n * 1.90821492927058770002e-10, r = high - low, t = r * r;
+  const double high = x - n * 6.93147180369123816490e-01, low = n * 1.90821492927058770002e-10,
+               r = high - low, t = r * r;
   const double c = r - t * (1.66666666666666019037e-01 +
                             t * (-2.77777777770155933842e-03 +
-                                 t * (6.61375632143793436117e-05 + t * (-1.65339022054652515390e-06 + t * 4.13813679705723846039e-08))));
+                                 t * (6.61375632143793436117e-05 +
+                                      t * (-1.65339022054652515390e-06 + t * 4.13813679705723846039e-08))));
   return scale(1.0 - ((low - (r * c) / (2.0 - c)) - high), (int)n);
 }
 
@@ -186,8 +196,10 @@ double log(double x) {
     ++k;
   }
   const double f = p.value - 1.0, s = f / (2.0 + f), z = s * s, w = z * z, half = 0.5 * f * f;
-  const double r = w * (3.999999999940941908e-01 + w * (2.222219843214978396e-01 + w * 1.531383769920937332e-01)) +
-                   z * (6.666666666666735130e-01 + w * (2.857142874366239149e-01 + w * (1.818357216161805012e-01 + w * 1.479819860511658591e-01)));
+  const double r =
+      w * (3.999999999940941908e-01 + w * (2.222219843214978396e-01 + w * 1.531383769920937332e-01)) +
+      z * (6.666666666666735130e-01 +
+           w * (2.857142874366239149e-01 + w * (1.818357216161805012e-01 + w * 1.479819860511658591e-01)));
   if (f == 0) return k * 6.93147180369123816490e-01 + k * 1.90821492927058770002e-10;
   return k * 6.93147180369123816490e-01 - ((half - (s * (half + r) + k * 1.90821492927058770002e-10)) - f);
 }

@@ -50,7 +50,8 @@ void exit(int code) {
   for (;;) dendro_call(kSysExit, code, 0, 0);
 }
 
-/* Blocks lie one behind the other from the first brk to the last; each begins with its size, bit 0 set while in use. */
+/* Blocks lie one behind the other from the first brk to the last; each begins with its size, bit 0 set while
+ * in use. */
 struct block {
   uint32_t size;
   uint32_t unused;
@@ -66,7 +67,8 @@ static int grow(size_t bytes) {
   }
   const size_t step = (bytes + 0xFFFF) & ~(size_t)0xFFFF;
   const uintptr_t wanted = (uintptr_t)end_block + step;
-  if (step < bytes || wanted < step || (uintptr_t)dendro_call(kSysBrk, (long)wanted, 0, 0) != wanted) return 0;
+  if (step < bytes || wanted < step || (uintptr_t)dendro_call(kSysBrk, (long)wanted, 0, 0) != wanted)
+    return 0;
   end_block->size = step;
   end_block = (struct block*)wanted;
   return 1;

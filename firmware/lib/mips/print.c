@@ -2,7 +2,7 @@
 
 struct sink {
   char* at;
-  size_t room;  /* with the final 0 */
+  size_t room; /* with the final 0 */
   size_t length;
 };
 
@@ -98,7 +98,8 @@ static void real(struct sink* s, struct spec* f, double x, int with_exponent) {
     return;
   }
   const int decimals = f->precision < 0 ? 6 : f->precision > 9 ? 9 : f->precision;
-  const int length = with_exponent || x >= 9223372036854775808.0 ? scientific(text, x, decimals) : fixed(text, x, decimals);
+  const int length =
+      with_exponent || x >= 9223372036854775808.0 ? scientific(text, x, decimals) : fixed(text, x, decimals);
   field(s, f, sign, text, length);
 }
 
@@ -119,12 +120,16 @@ int vsnprintf(char* to, size_t room, const char* format, va_list list) {
     }
     struct spec f = {0, 0, 0, -1};
     for (++format; *format == '-' || *format == '0'; ++format) *format == '-' ? (f.left = 1) : (f.zeros = 1);
-    if (*format == '*') f.width = va_arg(list, int), ++format;
-    else f.width = digits_of(&format);
+    if (*format == '*')
+      f.width = va_arg(list, int), ++format;
+    else
+      f.width = digits_of(&format);
     if (*format == '.') {
       ++format;
-      if (*format == '*') f.precision = va_arg(list, int), ++format;
-      else f.precision = digits_of(&format);
+      if (*format == '*')
+        f.precision = va_arg(list, int), ++format;
+      else
+        f.precision = digits_of(&format);
     }
     int longs = 0;
     for (; *format == 'l' || *format == 'z'; ++format) ++longs;
@@ -163,12 +168,18 @@ int vsnprintf(char* to, size_t room, const char* format, va_list list) {
         break;
       }
       case 'f':
-      case 'e': real(&s, &f, va_arg(list, double), *format == 'e'); break;
-      case '%': put(&s, '%'); break;
+      case 'e':
+        real(&s, &f, va_arg(list, double), *format == 'e');
+        break;
+      case '%':
+        put(&s, '%');
+        break;
       default:
         put(&s, '%');
-        if (!*format) --format;
-        else put(&s, *format);
+        if (!*format)
+          --format;
+        else
+          put(&s, *format);
     }
   }
   if (room) to[s.length < room ? s.length : room - 1] = 0;

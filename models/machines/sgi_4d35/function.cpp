@@ -21,22 +21,26 @@ struct Port {
     return size == 4 && physical - DENDRO_SERVICE_BASE < DENDRO_SERVICE_BYTES;
   }
   bool read(std::uint32_t physical, unsigned size, std::uint32_t& value) {
-    return in_block(physical, size) && service_block::read(block, program, static_cast<std::uint32_t>(memory.size()),
-                                                           physical - DENDRO_SERVICE_BASE, value);
+    return in_block(physical, size) &&
+           service_block::read(block, program, static_cast<std::uint32_t>(memory.size()),
+                               physical - DENDRO_SERVICE_BASE, value);
   }
   bool write(std::uint32_t physical, unsigned size, std::uint32_t value) {
-    return in_block(physical, size) && service_block::write(block, services, memory, physical - DENDRO_SERVICE_BASE, value);
+    return in_block(physical, size) &&
+           service_block::write(block, services, memory, physical - DENDRO_SERVICE_BASE, value);
   }
   bool stopped() const { return block.last.stops; }
 };
 
 }  // namespace
 
-ProgramResult run_function(const Spec& spec, const ProgramImage& image, service_block::Services& services, std::uint64_t limit) {
+ProgramResult run_function(const Spec& spec, const ProgramImage& image, service_block::Services& services,
+                           std::uint64_t limit) {
   Port port{std::vector<std::uint8_t>(spec.main_bytes), services, image.program, {}};
   for (const ProgramImage::Chunk& chunk : image.chunks) {
-    DENDRO_CHECK(chunk.physical <= port.memory.size() && chunk.bytes.size() <= port.memory.size() - chunk.physical,
-                 "0x{:x} + {} bytes", chunk.physical, chunk.bytes.size());
+    DENDRO_CHECK(
+        chunk.physical <= port.memory.size() && chunk.bytes.size() <= port.memory.size() - chunk.physical,
+        "0x{:x} + {} bytes", chunk.physical, chunk.bytes.size());
     std::copy(chunk.bytes.begin(), chunk.bytes.end(), port.memory.begin() + chunk.physical);
   }
   r3000::Core<Port> core(spec.processor, port);
@@ -51,8 +55,10 @@ ProgramResult run_function(const Spec& spec, const ProgramImage& image, service_
   result.return_address = state.r[31];
   result.instructions = state.instructions;
   result.clock_hz = spec.clock_hz;
-  result.units.push_back({"sgi_4d35.processor", {{"instructions", state.instructions}, {"exceptions", state.exceptions},
-                                                 {"tlb_refills", state.tlb_refills}}});
+  result.units.push_back({"sgi_4d35.processor",
+                          {{"instructions", state.instructions},
+                           {"exceptions", state.exceptions},
+                           {"tlb_refills", state.tlb_refills}}});
   return result;
 }
 

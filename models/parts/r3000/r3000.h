@@ -32,8 +32,8 @@ class Core {
   const State& state() const { return s_; }
   void forget();
 
-  /// Executes up to `budget` words; one that raises an exception counts. Returns what is left of the budget, more than 0
-  /// only if the port stopped the machine.
+  /// Executes up to `budget` words; one that raises an exception counts. Returns what is left of the budget,
+  /// more than 0 only if the port stopped the machine.
   std::uint64_t run(std::uint64_t budget);
 
  private:

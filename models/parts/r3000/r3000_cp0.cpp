@@ -65,7 +65,8 @@ void enter_exception(State& s, const Fault& fault) {
     s.pending_reg = 0;
   }
   s.epc = s.in_slot ? s.pc - 4 : s.pc;
-  s.cause = (s.cause & kCauseSoftware) | fault.code << 2 | (s.in_slot ? kCauseBd : 0) | fault.coprocessor << 28;
+  s.cause =
+      (s.cause & kCauseSoftware) | fault.code << 2 | (s.in_slot ? kCauseBd : 0) | fault.coprocessor << 28;
   if (fault.has_address) s.bad_vaddr = fault.address;
   if (fault.translation) {
     s.context = (s.context & 0xFFE00000) | (fault.address >> 12 & 0x7FFFF) << 2;
@@ -88,29 +89,53 @@ bool interrupt_due(const State& s) { return (s.status & kStatusIec) && (cause_of
 
 std::uint32_t read_cp0(const State& s, const Spec& spec, unsigned reg, unsigned random) {
   switch (reg) {
-    case kIndex: return s.index;
-    case kRandom: return random << 8;
-    case kEntryLo: return s.entry_lo;
-    case kContext: return s.context;
-    case kBadVAddr: return s.bad_vaddr;
-    case kEntryHi: return s.entry_hi;
-    case kStatus: return s.status;
-    case kCause: return cause_of(s);
-    case kEpc: return s.epc;
-    case kPrId: return spec.processor_id;
-    default: return 0;
+    case kIndex:
+      return s.index;
+    case kRandom:
+      return random << 8;
+    case kEntryLo:
+      return s.entry_lo;
+    case kContext:
+      return s.context;
+    case kBadVAddr:
+      return s.bad_vaddr;
+    case kEntryHi:
+      return s.entry_hi;
+    case kStatus:
+      return s.status;
+    case kCause:
+      return cause_of(s);
+    case kEpc:
+      return s.epc;
+    case kPrId:
+      return spec.processor_id;
+    default:
+      return 0;
   }
 }
 
 void write_cp0(State& s, unsigned reg, std::uint32_t value) {
   switch (reg) {
-    case kIndex: s.index = (s.index & 0x80000000) | (value & 0x3F00); break;
-    case kEntryLo: s.entry_lo = value & 0xFFFFFF00; break;
-    case kContext: s.context = (s.context & 0x1FFFFC) | (value & 0xFFE00000); break;
-    case kEntryHi: s.entry_hi = value & (kPageMask | kHiAsid); break;
-    case kStatus: s.status = (s.status & ~kStatusWritable) | (value & kStatusWritable); break;
-    case kCause: s.cause = (s.cause & ~kCauseSoftware) | (value & kCauseSoftware); break;
-    default: break;
+    case kIndex:
+      s.index = (s.index & 0x80000000) | (value & 0x3F00);
+      break;
+    case kEntryLo:
+      s.entry_lo = value & 0xFFFFFF00;
+      break;
+    case kContext:
+      s.context = (s.context & 0x1FFFFC) | (value & 0xFFE00000);
+      break;
+    case kEntryHi:
+      s.entry_hi = value & (kPageMask | kHiAsid);
+      break;
+    case kStatus:
+      s.status = (s.status & ~kStatusWritable) | (value & kStatusWritable);
+      break;
+    case kCause:
+      s.cause = (s.cause & ~kCauseSoftware) | (value & kCauseSoftware);
+      break;
+    default:
+      break;
   }
 }
 

@@ -15,20 +15,76 @@ constexpr std::uint32_t signed_immediate(std::uint32_t w) {
 
 /// Major opcodes, bits 31-26. 20-31, 39, 45 and 47 do not exist in MIPS I.
 enum Major : std::uint32_t {
-  kSpecial = 0, kRegimm = 1, kMajorJ = 2, kMajorJal = 3, kMajorBeq = 4, kMajorBne = 5, kMajorBlez = 6,
-  kMajorBgtz = 7, kMajorAddi = 8, kMajorAddiu = 9, kMajorSlti = 10, kMajorSltiu = 11, kMajorAndi = 12,
-  kMajorOri = 13, kMajorXori = 14, kMajorLui = 15, kCop0 = 16, kCop1 = 17, kCop2 = 18, kCop3 = 19,
-  kMajorLb = 32, kMajorLh = 33, kMajorLwl = 34, kMajorLw = 35, kMajorLbu = 36, kMajorLhu = 37, kMajorLwr = 38,
-  kMajorSb = 40, kMajorSh = 41, kMajorSwl = 42, kMajorSw = 43, kMajorSwr = 46,
-  kMajorLwc0 = 48, kMajorLwc1 = 49, kMajorLwc3 = 51, kMajorSwc0 = 56, kMajorSwc1 = 57, kMajorSwc3 = 59,
+  kSpecial = 0,
+  kRegimm = 1,
+  kMajorJ = 2,
+  kMajorJal = 3,
+  kMajorBeq = 4,
+  kMajorBne = 5,
+  kMajorBlez = 6,
+  kMajorBgtz = 7,
+  kMajorAddi = 8,
+  kMajorAddiu = 9,
+  kMajorSlti = 10,
+  kMajorSltiu = 11,
+  kMajorAndi = 12,
+  kMajorOri = 13,
+  kMajorXori = 14,
+  kMajorLui = 15,
+  kCop0 = 16,
+  kCop1 = 17,
+  kCop2 = 18,
+  kCop3 = 19,
+  kMajorLb = 32,
+  kMajorLh = 33,
+  kMajorLwl = 34,
+  kMajorLw = 35,
+  kMajorLbu = 36,
+  kMajorLhu = 37,
+  kMajorLwr = 38,
+  kMajorSb = 40,
+  kMajorSh = 41,
+  kMajorSwl = 42,
+  kMajorSw = 43,
+  kMajorSwr = 46,
+  kMajorLwc0 = 48,
+  kMajorLwc1 = 49,
+  kMajorLwc3 = 51,
+  kMajorSwc0 = 56,
+  kMajorSwc1 = 57,
+  kMajorSwc3 = 59,
 };
 
 /// Functions of kSpecial, bits 5-0.
 enum Function : std::uint32_t {
-  kFnSll = 0, kFnSrl = 2, kFnSra = 3, kFnSllv = 4, kFnSrlv = 6, kFnSrav = 7, kFnJr = 8, kFnJalr = 9,
-  kFnSyscall = 12, kFnBreak = 13, kFnMfhi = 16, kFnMthi = 17, kFnMflo = 18, kFnMtlo = 19, kFnMult = 24,
-  kFnMultu = 25, kFnDiv = 26, kFnDivu = 27, kFnAdd = 32, kFnAddu = 33, kFnSub = 34, kFnSubu = 35, kFnAnd = 36,
-  kFnOr = 37, kFnXor = 38, kFnNor = 39, kFnSlt = 42, kFnSltu = 43,
+  kFnSll = 0,
+  kFnSrl = 2,
+  kFnSra = 3,
+  kFnSllv = 4,
+  kFnSrlv = 6,
+  kFnSrav = 7,
+  kFnJr = 8,
+  kFnJalr = 9,
+  kFnSyscall = 12,
+  kFnBreak = 13,
+  kFnMfhi = 16,
+  kFnMthi = 17,
+  kFnMflo = 18,
+  kFnMtlo = 19,
+  kFnMult = 24,
+  kFnMultu = 25,
+  kFnDiv = 26,
+  kFnDivu = 27,
+  kFnAdd = 32,
+  kFnAddu = 33,
+  kFnSub = 34,
+  kFnSubu = 35,
+  kFnAnd = 36,
+  kFnOr = 37,
+  kFnXor = 38,
+  kFnNor = 39,
+  kFnSlt = 42,
+  kFnSltu = 43,
 };
 
 /// Bits 25-21 of a coprocessor's words below kCopOperation.
@@ -39,8 +95,16 @@ enum Cp0Operation : std::uint32_t { kFnTlbr = 1, kFnTlbwi = 2, kFnTlbwr = 6, kFn
 
 /// Registers of coprocessor 0 that exist; the others read 0.
 enum Cp0Register : unsigned {
-  kIndex = 0, kRandom = 1, kEntryLo = 2, kContext = 4, kBadVAddr = 8, kEntryHi = 10, kStatus = 12, kCause = 13,
-  kEpc = 14, kPrId = 15,
+  kIndex = 0,
+  kRandom = 1,
+  kEntryLo = 2,
+  kContext = 4,
+  kBadVAddr = 8,
+  kEntryHi = 10,
+  kStatus = 12,
+  kCause = 13,
+  kEpc = 14,
+  kPrId = 15,
 };
 
 constexpr std::uint32_t kStatusIec = 1u << 0, kStatusKuc = 1u << 1, kStatusStack = 0x3F, kStatusIm = 0xFF00,
@@ -53,15 +117,26 @@ constexpr unsigned kCauseIpShift = 8;            ///< interrupt line n of the si
 constexpr std::uint32_t kCauseBd = 1u << 31;
 
 enum ExceptionCode : unsigned {
-  kInt = 0, kMod = 1, kTlbl = 2, kTlbs = 3, kAdel = 4, kAdes = 5, kIbe = 6, kDbe = 7, kSys = 8, kBp = 9,
-  kRi = 10, kCpu = 11, kOv = 12,
+  kInt = 0,
+  kMod = 1,
+  kTlbl = 2,
+  kTlbs = 3,
+  kAdel = 4,
+  kAdes = 5,
+  kIbe = 6,
+  kDbe = 7,
+  kSys = 8,
+  kBp = 9,
+  kRi = 10,
+  kCpu = 11,
+  kOv = 12,
 };
 /// "AdEL" and so on.
 const char* exception_name(unsigned code);
 
 /// EntryLo and EntryHi.
-constexpr std::uint32_t kPageMask = 0xFFFFF000, kLoUncached = 1u << 11, kLoDirty = 1u << 10, kLoValid = 1u << 9,
-                        kLoGlobal = 1u << 8, kHiAsid = 0xFC0;
+constexpr std::uint32_t kPageMask = 0xFFFFF000, kLoUncached = 1u << 11, kLoDirty = 1u << 10,
+                        kLoValid = 1u << 9, kLoGlobal = 1u << 8, kHiAsid = 0xFC0;
 constexpr unsigned kTlbEntries = 64, kTlbWired = 8;
 
 constexpr std::uint32_t kKuseg = 0, kKseg0 = 0x80000000, kKseg1 = 0xA0000000, kKseg2 = 0xC0000000;

@@ -52,7 +52,8 @@ bool Core<Port>::store(std::uint32_t address, unsigned size, std::uint32_t value
 template <class Port>
 bool Core<Port>::slow_load(std::uint32_t address, unsigned size, std::uint32_t& value) {
   std::uint32_t physical = 0;
-  if (misaligned(address, size, Access::kLoad) || !translate(s_, address, Access::kLoad, physical, fault_)) return false;
+  if (misaligned(address, size, Access::kLoad) || !translate(s_, address, Access::kLoad, physical, fault_))
+    return false;
   if (s_.status & kStatusIsc) {  // the caches alone, which this level does not have
     value = 0;
     return true;
@@ -71,7 +72,8 @@ bool Core<Port>::slow_load(std::uint32_t address, unsigned size, std::uint32_t& 
 template <class Port>
 bool Core<Port>::slow_store(std::uint32_t address, unsigned size, std::uint32_t value) {
   std::uint32_t physical = 0;
-  if (misaligned(address, size, Access::kStore) || !translate(s_, address, Access::kStore, physical, fault_)) return false;
+  if (misaligned(address, size, Access::kStore) || !translate(s_, address, Access::kStore, physical, fault_))
+    return false;
   if (s_.status & kStatusIsc) return true;
   if (std::uint8_t* bytes = port_.page(physical)) {
     const auto code = code_.find(physical & kPageMask);
@@ -95,7 +97,8 @@ bool Core<Port>::slow_store(std::uint32_t address, unsigned size, std::uint32_t 
 template <class Port>
 const Decoded* Core<Port>::fetch_page(std::uint32_t address) {
   std::uint32_t physical = 0;
-  if (misaligned(address, 4, Access::kFetch) || !translate(s_, address, Access::kFetch, physical, fault_)) return nullptr;
+  if (misaligned(address, 4, Access::kFetch) || !translate(s_, address, Access::kFetch, physical, fault_))
+    return nullptr;
   auto& code = code_[physical & kPageMask];
   if (!code) {
     const std::uint8_t* bytes = port_.page(physical);
@@ -114,8 +117,8 @@ const Decoded* Core<Port>::fetch_page(std::uint32_t address) {
   return code->data();
 }
 
-/// lwl takes the bytes from the address to the end of its word into the top of the register, lwr those from the word's
-/// beginning to the address into its bottom [GEN; MIPS I].
+/// lwl takes the bytes from the address to the end of its word into the top of the register, lwr those from
+/// the word's beginning to the address into its bottom [GEN; MIPS I].
 template <class Port>
 bool Core<Port>::load_part(const Decoded& d, bool left, std::uint32_t& value) {
   const std::uint32_t address = s_.r[d.rs] + d.imm;

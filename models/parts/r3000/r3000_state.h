@@ -22,8 +22,8 @@ struct State {
   std::uint32_t r[33] = {};  ///< r[0] stays 0; r[32] takes what is written to it
   std::uint32_t hi = 0, lo = 0;
   std::uint32_t pc = kResetVector, next_pc = kResetVector + 4;
-  bool in_slot = false;            ///< the word at pc is the delay slot of the branch before it
-  std::uint8_t pending_reg = 0;    ///< register of a load that the word at pc does not see yet; 0: none
+  bool in_slot = false;          ///< the word at pc is the delay slot of the branch before it
+  std::uint8_t pending_reg = 0;  ///< register of a load that the word at pc does not see yet; 0: none
   std::uint32_t pending_value = 0;
   std::uint32_t index = 0, entry_lo = 0, context = 0, bad_vaddr = 0, entry_hi = 0, epc = 0;
   std::uint32_t status = kStatusBev, cause = 0;
@@ -60,7 +60,8 @@ enum class Access { kFetch, kLoad, kStore };
 /// The physical address of a virtual one, or false and what is wrong. Does not look at alignment.
 bool translate(State& s, std::uint32_t address, Access access, std::uint32_t& physical, Fault& fault);
 
-/// Enters an exception at the word at s.pc / s.in_slot: EPC, Cause, mode stack, vector. A load under way completes first.
+/// Enters an exception at the word at s.pc / s.in_slot: EPC, Cause, mode stack, vector. A load under way
+/// completes first.
 void enter_exception(State& s, const Fault& fault);
 
 /// True if an interrupt is asked for and allowed.

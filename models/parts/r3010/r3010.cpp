@@ -38,7 +38,9 @@ bool exists(unsigned format, unsigned operation) {
 
 }  // namespace
 
-std::uint32_t read_control(const State& s, unsigned reg) { return reg == 31 ? s.control : reg == 0 ? kRevision : 0; }
+std::uint32_t read_control(const State& s, unsigned reg) {
+  return reg == 31 ? s.control : reg == 0 ? kRevision : 0;
+}
 
 Outcome execute(State& s, std::uint32_t word) {
   const unsigned code = word >> 21 & 31, operation = word & 63;
@@ -60,7 +62,10 @@ Outcome execute(State& s, std::uint32_t word) {
   }
   const Outcome outcome = finish(s, result.exceptions);
   if (outcome == Outcome::kDone) {
-    const Format to = operation == kCvtS ? kSingle : operation == kCvtD ? kDouble : operation == kCvtW ? kWord : format;
+    const Format to = operation == kCvtS   ? kSingle
+                      : operation == kCvtD ? kDouble
+                      : operation == kCvtW ? kWord
+                                           : format;
     write(s, to, fd, result.bits);
   }
   return outcome;

@@ -9,10 +9,18 @@ namespace dendro::r3010 {
 constexpr std::uint32_t kCondition = 1u << 23;
 constexpr unsigned kCauseShift = 12, kEnableShift = 7, kFlagShift = 2;
 constexpr std::uint32_t kControlWritable = 0x0083FFFF;
-constexpr std::uint32_t kRevision = 0x0340;  ///< control register 0: implementation 3, revision 4.0. ASSUMED DEV-111
+constexpr std::uint32_t kRevision =
+    0x0340;  ///< control register 0: implementation 3, revision 4.0. ASSUMED DEV-111
 
 /// One exception each; shifted by the three above they are cause, enable and flag.
-enum Exception : unsigned { kInexact = 1, kUnderflow = 2, kOverflow = 4, kDivideByZero = 8, kInvalid = 16, kUnimplemented = 32 };
+enum Exception : unsigned {
+  kInexact = 1,
+  kUnderflow = 2,
+  kOverflow = 4,
+  kDivideByZero = 8,
+  kInvalid = 16,
+  kUnimplemented = 32
+};
 
 enum Rounding : unsigned { kNearest = 0, kZero = 1, kUp = 2, kDown = 3 };
 
@@ -20,11 +28,21 @@ enum Format : unsigned { kSingle = 16, kDouble = 17, kWord = 20 };
 
 /// Functions, bits 5-0 of a word whose format stands in bits 25-21.
 enum Operation : unsigned {
-  kAdd = 0, kSub = 1, kMul = 2, kDiv = 3, kAbs = 5, kMov = 6, kNeg = 7, kCvtS = 32, kCvtD = 33, kCvtW = 36,
+  kAdd = 0,
+  kSub = 1,
+  kMul = 2,
+  kDiv = 3,
+  kAbs = 5,
+  kMov = 6,
+  kNeg = 7,
+  kCvtS = 32,
+  kCvtD = 33,
+  kCvtW = 36,
   kCompare = 48,  ///< bits 3-0: invalid if unordered, less, equal, unordered
 };
 
-constexpr std::uint32_t fp_word(Format format, unsigned operation, unsigned fd, unsigned fs, unsigned ft = 0) {
+constexpr std::uint32_t fp_word(Format format, unsigned operation, unsigned fd, unsigned fs,
+                                unsigned ft = 0) {
   return 17u << 26 | format << 21 | ft << 16 | fs << 11 | fd << 6 | operation;
 }
 
@@ -43,8 +61,8 @@ std::uint32_t read_control(const State& state, unsigned reg);
 
 enum class Outcome { kDone, kInterrupt };
 
-/// Executes an arithmetic word (format and operation valid or not). With an enabled exception neither the destination nor
-/// the flags change; only the cause field does.
+/// Executes an arithmetic word (format and operation valid or not). With an enabled exception neither the
+/// destination nor the flags change; only the cause field does.
 Outcome execute(State& state, std::uint32_t word);
 
 /// A result in the format's low bits, and the exceptions that happened.
@@ -52,9 +70,12 @@ struct Result {
   std::uint64_t bits = 0;
   unsigned exceptions = 0;
 };
-inline bool operator==(const Result& a, const Result& b) { return a.bits == b.bits && a.exceptions == b.exceptions; }
+inline bool operator==(const Result& a, const Result& b) {
+  return a.bits == b.bits && a.exceptions == b.exceptions;
+}
 
-/// The operation by integer arithmetic alone; `b` counts for kAdd to kDiv. With kUnimplemented the bits mean nothing.
+/// The operation by integer arithmetic alone; `b` counts for kAdd to kDiv. With kUnimplemented the bits mean
+/// nothing.
 Result soft_compute(Operation operation, Format format, std::uint64_t a, std::uint64_t b, Rounding rounding);
 
 /// The same by the host's floating point where it can do it exactly, else by soft_compute().

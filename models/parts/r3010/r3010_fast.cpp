@@ -11,8 +11,9 @@ namespace {
 constexpr std::uint32_t kHostControl = 0x1F80, kHostInexact = 0x20;
 constexpr std::uint32_t kHostRounding[] = {0, 0x6000, 0x4000, 0x2000};
 
-/// One instruction between setting and reading the host's control word; `asm volatile` keeps the three together.
-#define DENDRO_HOST_OP(instruction, a, b)                                          \
+/// One instruction between setting and reading the host's control word; `asm volatile` keeps the three
+/// together.
+#define DENDRO_HOST_OP(instruction, a, b)                                      \
   asm volatile("ldmxcsr %[in]\n\t" instruction " %[y], %[x]\n\tstmxcsr %[out]" \
                : [x] "+x"(a), [out] "=m"(after)                                \
                : [y] "x"(b), [in] "m"(before))
@@ -54,10 +55,18 @@ bool double_op(Operation operation, std::uint64_t a, std::uint64_t b, Rounding r
   auto x = real_of<double, std::uint64_t>(a);
   const auto y = real_of<double, std::uint64_t>(b);
   switch (operation) {
-    case kAdd: DENDRO_HOST_OP("addsd", x, y); break;
-    case kSub: DENDRO_HOST_OP("subsd", x, y); break;
-    case kMul: DENDRO_HOST_OP("mulsd", x, y); break;
-    default: DENDRO_HOST_OP("divsd", x, y); break;
+    case kAdd:
+      DENDRO_HOST_OP("addsd", x, y);
+      break;
+    case kSub:
+      DENDRO_HOST_OP("subsd", x, y);
+      break;
+    case kMul:
+      DENDRO_HOST_OP("mulsd", x, y);
+      break;
+    default:
+      DENDRO_HOST_OP("divsd", x, y);
+      break;
   }
   restore(rounding);
   const std::uint64_t bits = bits_of<double, std::uint64_t>(x);
@@ -71,10 +80,18 @@ bool single_op(Operation operation, std::uint64_t a, std::uint64_t b, Rounding r
   auto x = real_of<float, std::uint32_t>(a);
   const auto y = real_of<float, std::uint32_t>(b);
   switch (operation) {
-    case kAdd: DENDRO_HOST_OP("addss", x, y); break;
-    case kSub: DENDRO_HOST_OP("subss", x, y); break;
-    case kMul: DENDRO_HOST_OP("mulss", x, y); break;
-    default: DENDRO_HOST_OP("divss", x, y); break;
+    case kAdd:
+      DENDRO_HOST_OP("addss", x, y);
+      break;
+    case kSub:
+      DENDRO_HOST_OP("subss", x, y);
+      break;
+    case kMul:
+      DENDRO_HOST_OP("mulss", x, y);
+      break;
+    default:
+      DENDRO_HOST_OP("divss", x, y);
+      break;
   }
   restore(rounding);
   const std::uint32_t bits = bits_of<float, std::uint32_t>(x);
@@ -117,8 +134,8 @@ Result word_to_single(std::uint64_t a, Rounding rounding) {
   return {bits_of<float, std::uint32_t>(y), after & kHostInexact ? unsigned{kInexact} : 0u};
 }
 
-/// To nearest, between normal singles, without the control word: in double the product is exact, and a sum or quotient
-/// rounded twice is the one rounded once. It was exact if going back gives the operand.
+/// To nearest, between normal singles, without the control word: in double the product is exact, and a sum or
+/// quotient rounded twice is the one rounded once. It was exact if going back gives the operand.
 bool nearest_single(Operation operation, std::uint64_t a, std::uint64_t b, Result& result) {
   const double x = real_of<float, std::uint32_t>(a), y = real_of<float, std::uint32_t>(b);
   float value = 0;
@@ -141,15 +158,19 @@ bool nearest_single(Operation operation, std::uint64_t a, std::uint64_t b, Resul
 
 /// The same for sums of doubles, by the error that a sum leaves, which is a double itself.
 bool nearest_double_sum(Operation operation, std::uint64_t a, std::uint64_t b, Result& result) {
-  const double x = real_of<double, std::uint64_t>(a), y = real_of<double, std::uint64_t>(operation == kSub ? b ^ std::uint64_t{1} << 63 : b);
+  const double x = real_of<double, std::uint64_t>(a),
+               y = real_of<double, std::uint64_t>(operation == kSub ? b ^ std::uint64_t{1} << 63 : b);
   const double sum = x + y, part = sum - x, error = (x - (sum - part)) + (y - part);
   const std::uint64_t bits = bits_of<double, std::uint64_t>(sum);
   result = {bits, error == 0 ? 0u : unsigned{kInexact}};
   return safe_double(bits);
 }
 
-bool normal_op(Operation operation, bool wide, std::uint64_t a, std::uint64_t b, Rounding rounding, Result& result) {
-  if (!wide) return rounding == kNearest ? nearest_single(operation, a, b, result) : single_op(operation, a, b, rounding, result);
+bool normal_op(Operation operation, bool wide, std::uint64_t a, std::uint64_t b, Rounding rounding,
+               Result& result) {
+  if (!wide)
+    return rounding == kNearest ? nearest_single(operation, a, b, result)
+                                : single_op(operation, a, b, rounding, result);
   if (rounding == kNearest && operation <= kSub) return nearest_double_sum(operation, a, b, result);
   return double_op(operation, a, b, rounding, result);
 }
@@ -158,8 +179,12 @@ bool normal_op(Operation operation, bool wide, std::uint64_t a, std::uint64_t b,
 bool with_zero(Operation operation, std::uint64_t a, std::uint64_t b, std::uint64_t sign, Result& result) {
   const bool a_zero = (a & (sign - 1)) == 0, b_zero = (b & (sign - 1)) == 0;
   switch (operation) {
-    case kMul: result = {(a ^ b) & sign, 0}; return true;
-    case kDiv: result = {(a ^ b) & sign, 0}; return !b_zero;
+    case kMul:
+      result = {(a ^ b) & sign, 0};
+      return true;
+    case kDiv:
+      result = {(a ^ b) & sign, 0};
+      return !b_zero;
     default:
       result = {a_zero ? (operation == kSub ? b ^ sign : b) : a, 0};
       return !(a_zero && b_zero);

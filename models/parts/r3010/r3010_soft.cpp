@@ -12,10 +12,14 @@ struct Layout {
   constexpr std::uint64_t exponent_mask() const { return (std::uint64_t{1} << exponent_bits) - 1; }
   constexpr std::uint64_t fraction_mask() const { return (std::uint64_t{1} << fraction_bits) - 1; }
   constexpr std::uint64_t sign(bool negative) const { return std::uint64_t{negative} << sign_bit(); }
-  constexpr std::uint64_t infinity(bool negative) const { return sign(negative) | exponent_mask() << fraction_bits; }
+  constexpr std::uint64_t infinity(bool negative) const {
+    return sign(negative) | exponent_mask() << fraction_bits;
+  }
   constexpr std::uint64_t largest(bool negative) const { return infinity(negative) - 1; }
   /// A quiet NaN has the fraction's top bit clear [GEN; MIPS I]. ASSUMED DEV-116
-  constexpr std::uint64_t default_nan() const { return (exponent_mask() << fraction_bits) | (fraction_mask() >> 1); }
+  constexpr std::uint64_t default_nan() const {
+    return (exponent_mask() << fraction_bits) | (fraction_mask() >> 1);
+  }
 };
 constexpr Layout kSingleLayout = {23, 8, 127}, kDoubleLayout = {52, 11, 1023};
 
@@ -34,7 +38,8 @@ struct Number {
 Number unpack(const Layout& l, std::uint64_t bits) {
   Number n;
   n.negative = bits >> l.sign_bit() & 1;
-  const std::uint64_t exponent = bits >> l.fraction_bits & l.exponent_mask(), fraction = bits & l.fraction_mask();
+  const std::uint64_t exponent = bits >> l.fraction_bits & l.exponent_mask(),
+                      fraction = bits & l.fraction_mask();
   if (exponent == l.exponent_mask()) {
     const bool top = fraction >> (l.fraction_bits - 1);
     n.kind = fraction == 0 ? Kind::kInfinity : top ? Kind::kSignalingNan : Kind::kQuietNan;
@@ -52,10 +57,14 @@ bool is_nan(const Number& n) { return n.kind >= Kind::kQuietNan; }
 
 bool rounds_up(Rounding rounding, bool negative, bool odd, bool half, bool rest) {
   switch (rounding) {
-    case kNearest: return half && (rest || odd);
-    case kZero: return false;
-    case kUp: return !negative && (half || rest);
-    default: return negative && (half || rest);
+    case kNearest:
+      return half && (rest || odd);
+    case kZero:
+      return false;
+    case kUp:
+      return !negative && (half || rest);
+    default:
+      return negative && (half || rest);
   }
 }
 
@@ -76,14 +85,16 @@ Result round(const Layout& l, bool negative, int exponent, Wide significand, boo
     ++exponent;
   }
   if (exponent > l.bias) return overflow(l, negative, rounding);
-  return {l.sign(negative) | static_cast<std::uint64_t>(exponent + l.bias) << l.fraction_bits | (kept & l.fraction_mask()),
+  return {l.sign(negative) | static_cast<std::uint64_t>(exponent + l.bias) << l.fraction_bits |
+              (kept & l.fraction_mask()),
           half || rest ? kInexact : 0u};
 }
 
 Result invalid(const Layout& l) { return {l.default_nan(), kInvalid}; }
 
 /// A signaling NaN is invalid; of quiet ones the first is the result. ASSUMED DEV-116
-Result nan_result(const Layout& l, const Number& a, std::uint64_t a_bits, const Number& b, std::uint64_t b_bits) {
+Result nan_result(const Layout& l, const Number& a, std::uint64_t a_bits, const Number& b,
+                  std::uint64_t b_bits) {
   if (a.kind == Kind::kSignalingNan || b.kind == Kind::kSignalingNan) return invalid(l);
   return {is_nan(a) ? a_bits : b_bits, 0};
 }
@@ -150,9 +161,11 @@ Result multiply(const Layout& l, const Number& a, const Number& b, Rounding roun
 
 Result divide(const Layout& l, const Number& a, const Number& b, Rounding rounding) {
   const bool negative = a.negative != b.negative;
-  if (a.kind == Kind::kInfinity) return b.kind == Kind::kInfinity ? invalid(l) : Result{l.infinity(negative), 0};
+  if (a.kind == Kind::kInfinity)
+    return b.kind == Kind::kInfinity ? invalid(l) : Result{l.infinity(negative), 0};
   if (b.kind == Kind::kInfinity) return zero(l, negative);
-  if (b.kind == Kind::kZero) return a.kind == Kind::kZero ? invalid(l) : Result{l.infinity(negative), kDivideByZero};
+  if (b.kind == Kind::kZero)
+    return a.kind == Kind::kZero ? invalid(l) : Result{l.infinity(negative), kDivideByZero};
   if (a.kind == Kind::kZero) return zero(l, negative);
   const Wide dividend = Wide{a.significand} << 63;  // the quotient has its top bit at 63 or 62
   Wide quotient = dividend / b.significand;
@@ -214,7 +227,8 @@ Result soft_compute(Operation operation, Format format, std::uint64_t a, std::ui
   const Layout& l = layout_of(format);
   if (format == kWord) {
     if (operation != kCvtS && operation != kCvtD) return {0, kUnimplemented};
-    return from_word(operation == kCvtD ? kDoubleLayout : kSingleLayout, static_cast<std::uint32_t>(a), rounding);
+    return from_word(operation == kCvtD ? kDoubleLayout : kSingleLayout, static_cast<std::uint32_t>(a),
+                     rounding);
   }
   if (operation == kMov) return {a, 0};
   const Number x = unpack(l, a);
@@ -229,14 +243,23 @@ Result soft_compute(Operation operation, Format format, std::uint64_t a, std::ui
   if (operation <= kDiv && (is_nan(x) || is_nan(y))) return nan_result(l, x, a, y, b);
   if (x.kind == Kind::kDenormal || y.kind == Kind::kDenormal) return {0, kUnimplemented};
   switch (operation) {
-    case kSub: y.negative = !y.negative; [[fallthrough]];
-    case kAdd: return add(l, x, y, rounding);
-    case kMul: return multiply(l, x, y, rounding);
-    case kDiv: return divide(l, x, y, rounding);
-    case kCvtS: return format == kDouble ? convert(kSingleLayout, x, rounding) : Result{0, kUnimplemented};
-    case kCvtD: return format == kSingle ? convert(kDoubleLayout, x, rounding) : Result{0, kUnimplemented};
-    case kCvtW: return to_word(l, x, rounding);
-    default: return {0, kUnimplemented};
+    case kSub:
+      y.negative = !y.negative;
+      [[fallthrough]];
+    case kAdd:
+      return add(l, x, y, rounding);
+    case kMul:
+      return multiply(l, x, y, rounding);
+    case kDiv:
+      return divide(l, x, y, rounding);
+    case kCvtS:
+      return format == kDouble ? convert(kSingleLayout, x, rounding) : Result{0, kUnimplemented};
+    case kCvtD:
+      return format == kSingle ? convert(kDoubleLayout, x, rounding) : Result{0, kUnimplemented};
+    case kCvtW:
+      return to_word(l, x, rounding);
+    default:
+      return {0, kUnimplemented};
   }
 }
 
@@ -251,7 +274,8 @@ Result soft_compare(unsigned condition, Format format, std::uint64_t a, std::uin
   const std::uint64_t magnitude = ~l.sign(true);
   const bool equal = both_zero || a == b;
   bool less = false;
-  if (!equal) less = x.negative != y.negative ? x.negative : ((a & magnitude) < (b & magnitude)) != x.negative;
+  if (!equal)
+    less = x.negative != y.negative ? x.negative : ((a & magnitude) < (b & magnitude)) != x.negative;
   return {static_cast<std::uint64_t>(((condition & 4) && less) || ((condition & 2) && equal)), 0};
 }
 

@@ -34,7 +34,9 @@ struct State {
 };
 
 /// True if a register lies there; `offset` from DENDRO_SERVICE_BASE.
-bool read(const State& state, const Program& program, std::uint32_t memory_bytes, std::uint32_t offset, std::uint32_t& value);
-bool write(State& state, Services& services, std::vector<std::uint8_t>& memory, std::uint32_t offset, std::uint32_t value);
+bool read(const State& state, const Program& program, std::uint32_t memory_bytes, std::uint32_t offset,
+          std::uint32_t& value);
+bool write(State& state, Services& services, std::vector<std::uint8_t>& memory, std::uint32_t offset,
+           std::uint32_t value);
 
 }  // namespace dendro::service_block

@@ -10,7 +10,8 @@ std::uint32_t mtc0(unsigned rt, unsigned reg) { return cop_word(0, kMtc, rt, reg
 
 TEST(R3000Exception, EpcIsTheWordAndBdTellsTheBranchBeforeIt) {
   for (const bool in_slot : {false, true}) {
-    Rig rig({in_slot ? i_word(kMajorBne, 0, 0, 5) : kNopWord, r_word(kFnSyscall, 0, 0, 0)});  // also a branch not taken
+    Rig rig({in_slot ? i_word(kMajorBne, 0, 0, 5) : kNopWord,
+             r_word(kFnSyscall, 0, 0, 0)});  // also a branch not taken
     rig.run(2);
     EXPECT_EQ(unsigned{kSys}, rig.code());
     EXPECT_EQ(in_slot ? kCode : kCode + 4, rig.state().epc);
@@ -51,7 +52,10 @@ TEST(R3000Exception, TheBootBitMovesTheVector) {
 }
 
 TEST(R3000Exception, ReservedAndUnusableWordsSayWhich) {
-  struct Case { std::uint32_t word, status; unsigned code, coprocessor; };
+  struct Case {
+    std::uint32_t word, status;
+    unsigned code, coprocessor;
+  };
   const Case cases[] = {{0x7000003F, 0, kRi, 0},
                         {20u << 26, 0, kRi, 0},  // beql of MIPS II
                         {r_word(52, 0, 0, 0), 0, kRi, 0},
@@ -70,9 +74,18 @@ TEST(R3000Exception, ReservedAndUnusableWordsSayWhich) {
 }
 
 TEST(R3000Exception, UnalignedAccessesNameTheirAddress) {
-  struct Case { std::uint32_t major; int at; unsigned code; };
-  for (const Case& c : {Case{kMajorLw, 2, kAdel}, {kMajorLh, 1, kAdel}, {kMajorLhu, 3, kAdel}, {kMajorSw, 1, kAdes},
-                        {kMajorSh, 1, kAdes}, {kMajorLwc1, 2, kAdel}, {kMajorSwc1, 2, kAdes}}) {
+  struct Case {
+    std::uint32_t major;
+    int at;
+    unsigned code;
+  };
+  for (const Case& c : {Case{kMajorLw, 2, kAdel},
+                        {kMajorLh, 1, kAdel},
+                        {kMajorLhu, 3, kAdel},
+                        {kMajorSw, 1, kAdes},
+                        {kMajorSh, 1, kAdes},
+                        {kMajorLwc1, 2, kAdel},
+                        {kMajorSwc1, 2, kAdes}}) {
     Rig rig({i_word(c.major, kT0, kT4, c.at)});
     rig.r(kT4) = kData;
     rig.run(1);
@@ -103,7 +116,8 @@ TEST(R3000Exception, DevicesAreReadAndWrittenThroughThePort) {
 }
 
 TEST(R3000User, HasNoKernelAddressesAndNoCoprocessorZero) {
-  for (const std::uint32_t word : {i_word(kMajorLw, kT0, kT4, 0), mfc0(kT0, kStatus), mtc0(kT0, kStatus), cp0_word(kFnRfe)}) {
+  for (const std::uint32_t word :
+       {i_word(kMajorLw, kT0, kT4, 0), mfc0(kT0, kStatus), mtc0(kT0, kStatus), cp0_word(kFnRfe)}) {
     Rig rig;
     rig.put(0x80030000, {word});
     rig.state().tlb[5] = {0x00400000, 0x30000 | kLoValid};
@@ -111,7 +125,8 @@ TEST(R3000User, HasNoKernelAddressesAndNoCoprocessorZero) {
     rig.r(kT4) = kData;
     rig.jump(0x00400000);
     rig.run(1);
-    EXPECT_EQ(word == i_word(kMajorLw, kT0, kT4, 0) ? unsigned{kAdel} : unsigned{kCpu}, rig.code()) << std::hex << word;
+    EXPECT_EQ(word == i_word(kMajorLw, kT0, kT4, 0) ? unsigned{kAdel} : unsigned{kCpu}, rig.code())
+        << std::hex << word;
     EXPECT_EQ(0x00400000u, rig.state().epc);
   }
 }
@@ -144,9 +159,14 @@ TEST(R3000Tlb, AMissRefillsThroughItsOwnVectorWithContextAndEntryHiReady) {
 }
 
 TEST(R3000Tlb, KernelSegmentMissesInvalidAndCleanPagesUseTheGeneralVector) {
-  struct Case { std::uint32_t address, lo, word; unsigned code; };
+  struct Case {
+    std::uint32_t address, lo, word;
+    unsigned code;
+  };
   const std::uint32_t load = i_word(kMajorLw, kT0, kT4, 0), store = i_word(kMajorSw, kT0, kT4, 0);
-  const Case cases[] = {{0xC0001000, 0, load, kTlbl}, {0x1000, kLoGlobal, load, kTlbl}, {0x1000, kLoGlobal, store, kTlbs},
+  const Case cases[] = {{0xC0001000, 0, load, kTlbl},
+                        {0x1000, kLoGlobal, load, kTlbl},
+                        {0x1000, kLoGlobal, store, kTlbs},
                         {0x1000, kLoGlobal | kLoValid, store, kMod}};
   for (const Case& c : cases) {
     Rig rig({c.word});
@@ -175,8 +195,8 @@ TEST(R3000Tlb, AddressSpacesDifferUnlessThePageIsGlobal) {
 }
 
 TEST(R3000Tlb, WritesReadsAndProbesGoThroughIndexAndRandom) {
-  Rig rig({mtc0(kT0, kEntryHi), mtc0(kT1, kEntryLo), mtc0(kT2, kIndex), cp0_word(kFnTlbwi), cp0_word(kFnTlbwr),
-           cp0_word(kFnTlbp), mfc0(kT3, kIndex), kNopWord});
+  Rig rig({mtc0(kT0, kEntryHi), mtc0(kT1, kEntryLo), mtc0(kT2, kIndex), cp0_word(kFnTlbwi),
+           cp0_word(kFnTlbwr), cp0_word(kFnTlbp), mfc0(kT3, kIndex), kNopWord});
   rig.r(kT0) = 0x5000;
   rig.r(kT1) = 0x20000 | kLoValid | kLoDirty;
   rig.r(kT2) = 3 << 8;
@@ -275,8 +295,8 @@ TEST(R3000Cp0, TheProcessorIdentificationIsTheSpecs) {
 
 TEST(R3000Fpu, BranchesOnTheConditionAndMovesWords) {
   Rig rig({cop_word(1, kMtc, kT0, 2), cop_word(1, kMtc, kT0, 4), kNopWord,
-           r3010::fp_word(r3010::kSingle, r3010::kCompare + 2, 0, 2, 4), kNopWord, 17u << 26 | 8u << 21 | 1u << 16 | 4,
-           cop_word(1, kMfc, kT1, 2), kNopWord});
+           r3010::fp_word(r3010::kSingle, r3010::kCompare + 2, 0, 2, 4), kNopWord,
+           17u << 26 | 8u << 21 | 1u << 16 | 4, cop_word(1, kMfc, kT1, 2), kNopWord});
   rig.r(kT0) = 0x3F800000;
   rig.run(8);
   EXPECT_EQ(kCode + 24 + 16 + 4, rig.state().pc);

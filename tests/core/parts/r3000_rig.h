@@ -49,7 +49,8 @@ struct Rig {
     state().next_pc = address + 4;
   }
   void put(std::uint32_t address, const std::vector<std::uint32_t>& words) {
-    for (std::size_t i = 0; i < words.size(); ++i) poke(address + static_cast<std::uint32_t>(4 * i), words[i]);
+    for (std::size_t i = 0; i < words.size(); ++i)
+      poke(address + static_cast<std::uint32_t>(4 * i), words[i]);
     core.forget();
   }
   void poke(std::uint32_t address, std::uint32_t word) {

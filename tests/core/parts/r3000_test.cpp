@@ -1,6 +1,6 @@
-#include "tests/core/parts/r3000_rig.h"
-
 #include <random>
+
+#include "tests/core/parts/r3000_rig.h"
 
 namespace dendro::r3000 {
 namespace {
@@ -70,7 +70,10 @@ TEST(R3000Alu, RegisterZeroStaysZero) {
 }
 
 TEST(R3000Alu, SignedOverflowTrapsAndLeavesTheDestination) {
-  struct Case { std::uint32_t word, a, b; bool traps; };
+  struct Case {
+    std::uint32_t word, a, b;
+    bool traps;
+  };
   const Case cases[] = {{r_word(kFnAdd, kT2, kT0, kT1), 0x7FFFFFFF, 1, true},
                         {r_word(kFnAdd, kT2, kT0, kT1), 0x7FFFFFFF, 0, false},
                         {r_word(kFnAdd, kT2, kT0, kT1), 0x80000000, 0xFFFFFFFF, true},
@@ -95,16 +98,19 @@ TEST(R3000Alu, SignedOverflowTrapsAndLeavesTheDestination) {
 }
 
 TEST(R3000MultiplyDivide, GiveTheWholeProductAndQuotientWithRemainder) {
-  struct Case { std::uint32_t fn, a, b, hi, lo; };
-  const Case cases[] = {{kFnMult, 0xFFFFFFFF, 2, 0xFFFFFFFF, 0xFFFFFFFE},
-                        {kFnMultu, 0xFFFFFFFF, 2, 1, 0xFFFFFFFE},
-                        {kFnMult, 0x80000000, 0x80000000, 0x40000000, 0},
-                        {kFnDiv, static_cast<std::uint32_t>(-7), 2, 0xFFFFFFFF, static_cast<std::uint32_t>(-3)},
-                        {kFnDivu, 0xFFFFFFF9, 2, 1, 0x7FFFFFFC},
-                        {kFnDiv, 0x80000000, 0xFFFFFFFF, 0, 0x80000000},
-                        {kFnDiv, 5, 0, 5, 0xFFFFFFFF},
-                        {kFnDiv, 0xFFFFFFFB, 0, 0xFFFFFFFB, 1},
-                        {kFnDivu, 5, 0, 5, 0xFFFFFFFF}};
+  struct Case {
+    std::uint32_t fn, a, b, hi, lo;
+  };
+  const Case cases[] = {
+      {kFnMult, 0xFFFFFFFF, 2, 0xFFFFFFFF, 0xFFFFFFFE},
+      {kFnMultu, 0xFFFFFFFF, 2, 1, 0xFFFFFFFE},
+      {kFnMult, 0x80000000, 0x80000000, 0x40000000, 0},
+      {kFnDiv, static_cast<std::uint32_t>(-7), 2, 0xFFFFFFFF, static_cast<std::uint32_t>(-3)},
+      {kFnDivu, 0xFFFFFFF9, 2, 1, 0x7FFFFFFC},
+      {kFnDiv, 0x80000000, 0xFFFFFFFF, 0, 0x80000000},
+      {kFnDiv, 5, 0, 5, 0xFFFFFFFF},
+      {kFnDiv, 0xFFFFFFFB, 0, 0xFFFFFFFB, 1},
+      {kFnDivu, 5, 0, 5, 0xFFFFFFFF}};
   for (const Case& c : cases) {
     Rig rig({r_word(c.fn, 0, kT0, kT1), r_word(kFnMfhi, kT2, 0, 0), r_word(kFnMflo, kT3, 0, 0)});
     rig.r(kT0) = c.a;
@@ -159,8 +165,8 @@ TEST(R3000Branch, ConditionsAreThoseOfTheirNames) {
 }
 
 TEST(R3000Branch, LinksToTheWordBehindItsSlotTakenOrNot) {
-  for (const std::uint32_t word : {j_word(kMajorJal, kCode + 64), r_word(kFnJalr, kRa, kT0, 0), i_word(kRegimm, 16, kT1, 9),
-                                   i_word(kRegimm, 17, kT1, 9)}) {
+  for (const std::uint32_t word : {j_word(kMajorJal, kCode + 64), r_word(kFnJalr, kRa, kT0, 0),
+                                   i_word(kRegimm, 16, kT1, 9), i_word(kRegimm, 17, kT1, 9)}) {
     Rig rig({word});
     rig.r(kT0) = kCode + 64;
     rig.run(1);
@@ -263,9 +269,14 @@ TEST(R3000Load, TheConditionOfABranchInTheSlotIsOld) {
 }
 
 TEST(R3000Load, BytesAndHalvesAreBigEndianAndExtended) {
-  struct Case { std::uint32_t major; int at; std::uint32_t value; };
-  const Case cases[] = {{kMajorLb, 0, 0xFFFFFF81}, {kMajorLbu, 0, 0x81}, {kMajorLb, 3, 0x44}, {kMajorLh, 0, 0xFFFF8122},
-                        {kMajorLhu, 0, 0x8122}, {kMajorLhu, 2, 0x3344}, {kMajorLw, 0, 0x81223344}};
+  struct Case {
+    std::uint32_t major;
+    int at;
+    std::uint32_t value;
+  };
+  const Case cases[] = {{kMajorLb, 0, 0xFFFFFF81}, {kMajorLbu, 0, 0x81},   {kMajorLb, 3, 0x44},
+                        {kMajorLh, 0, 0xFFFF8122}, {kMajorLhu, 0, 0x8122}, {kMajorLhu, 2, 0x3344},
+                        {kMajorLw, 0, 0x81223344}};
   for (const Case& c : cases) {
     Rig rig({i_word(c.major, kT0, kT4, c.at), kNopWord});
     rig.r(kT4) = kData;
@@ -276,11 +287,15 @@ TEST(R3000Load, BytesAndHalvesAreBigEndianAndExtended) {
 }
 
 TEST(R3000Store, WritesTheBytesThatItNamesAndNoOthers) {
-  struct Case { std::uint32_t major; int at; std::uint32_t value; };
-  const Case cases[] = {{kMajorSb, 0, 0x44000000}, {kMajorSb, 3, 0x44}, {kMajorSh, 0, 0x33440000}, {kMajorSh, 2, 0x3344},
-                        {kMajorSw, 0, 0x11223344}, {kMajorSwl, 0, 0x11223344}, {kMajorSwl, 1, 0x00112233},
-                        {kMajorSwl, 3, 0x11}, {kMajorSwr, 3, 0x11223344}, {kMajorSwr, 1, 0x33440000},
-                        {kMajorSwr, 0, 0x44000000}};
+  struct Case {
+    std::uint32_t major;
+    int at;
+    std::uint32_t value;
+  };
+  const Case cases[] = {{kMajorSb, 0, 0x44000000},  {kMajorSb, 3, 0x44},       {kMajorSh, 0, 0x33440000},
+                        {kMajorSh, 2, 0x3344},      {kMajorSw, 0, 0x11223344}, {kMajorSwl, 0, 0x11223344},
+                        {kMajorSwl, 1, 0x00112233}, {kMajorSwl, 3, 0x11},      {kMajorSwr, 3, 0x11223344},
+                        {kMajorSwr, 1, 0x33440000}, {kMajorSwr, 0, 0x44000000}};
   for (const Case& c : cases) {
     Rig rig({i_word(c.major, kT0, kT4, c.at)});
     rig.r(kT4) = kData;

@@ -32,11 +32,12 @@ std::vector<std::uint64_t> corners(Format format) {
   const std::uint64_t top = (std::uint64_t{1} << exponent_bits) - 1, bias = top / 2;
   const std::uint64_t ones = (std::uint64_t{1} << fraction) - 1;
   std::vector<std::uint64_t> list;
-  for (const std::uint64_t e : {std::uint64_t{0}, std::uint64_t{1}, std::uint64_t{2}, bias - fraction - 1, bias - fraction,
-                                bias - 1, bias, bias + 1, bias + 30, bias + 31, bias + fraction, bias + fraction + 1,
-                                top - 2, top - 1, top})
+  for (const std::uint64_t e :
+       {std::uint64_t{0}, std::uint64_t{1}, std::uint64_t{2}, bias - fraction - 1, bias - fraction, bias - 1,
+        bias, bias + 1, bias + 30, bias + 31, bias + fraction, bias + fraction + 1, top - 2, top - 1, top})
     for (const std::uint64_t f : {std::uint64_t{0}, std::uint64_t{1}, ones / 2, ones / 2 + 1, ones - 1, ones})
-      for (const std::uint64_t sign : {0, 1}) list.push_back(sign << (fraction + exponent_bits) | e << fraction | f);
+      for (const std::uint64_t sign : {0, 1})
+        list.push_back(sign << (fraction + exponent_bits) | e << fraction | f);
   return list;
 }
 
@@ -44,14 +45,16 @@ constexpr Rounding kModes[] = {kNearest, kZero, kUp, kDown};
 constexpr Operation kTwo[] = {kAdd, kSub, kMul, kDiv}, kOne[] = {kAbs, kMov, kNeg, kCvtS, kCvtD, kCvtW};
 
 void expect_same(Operation operation, Format format, std::uint64_t a, std::uint64_t b, Rounding rounding) {
-  const Result soft = soft_compute(operation, format, a, b, rounding), fast = compute(operation, format, a, b, rounding);
+  const Result soft = soft_compute(operation, format, a, b, rounding),
+               fast = compute(operation, format, a, b, rounding);
   if (!(soft == fast))
     ADD_FAILURE() << std::hex << "operation " << operation << " format " << format << " a " << a << " b " << b
-                  << " rounding " << rounding << ": soft " << soft.bits << "/" << soft.exceptions << " fast " << fast.bits
-                  << "/" << fast.exceptions;
+                  << " rounding " << rounding << ": soft " << soft.bits << "/" << soft.exceptions << " fast "
+                  << fast.bits << "/" << fast.exceptions;
 }
 
-/// What the host says, as a second opinion on the soft path: value and exceptions, nothing for what the part does not do.
+/// What the host says, as a second opinion on the soft path: value and exceptions, nothing for what the part
+/// does not do.
 template <class Real>
 Result host(Operation operation, Real a, Real b, Rounding rounding) {
   static const int kHostModes[] = {FE_TONEAREST, FE_TOWARDZERO, FE_UPWARD, FE_DOWNWARD};
@@ -65,7 +68,8 @@ Result host(Operation operation, Real a, Real b, Rounding rounding) {
   const int flags = std::fetestexcept(FE_ALL_EXCEPT);
   std::fesetround(FE_TONEAREST);
   return {bits(Real(z)), (flags & FE_INEXACT ? kInexact : 0u) | (flags & FE_OVERFLOW ? kOverflow : 0u) |
-                             (flags & FE_DIVBYZERO ? kDivideByZero : 0u) | (flags & FE_INVALID ? kInvalid : 0u)};
+                             (flags & FE_DIVBYZERO ? kDivideByZero : 0u) |
+                             (flags & FE_INVALID ? kInvalid : 0u)};
 }
 
 template <class Real>
@@ -74,7 +78,8 @@ void expect_host(Operation operation, Format format, std::uint64_t a, std::uint6
   std::memcpy(&x, &a, sizeof x);
   std::memcpy(&y, &b, sizeof y);
   if (std::isnan(x) || std::isnan(y)) return;  // the two disagree on what a NaN looks like
-  const Result soft = soft_compute(operation, format, a, b, rounding), other = host(operation, x, y, rounding);
+  const Result soft = soft_compute(operation, format, a, b, rounding),
+               other = host(operation, x, y, rounding);
   const auto subnormal = [](Real v) { return std::fpclassify(v) == FP_SUBNORMAL; };
   Real z;
   std::memcpy(&z, &other.bits, sizeof z);
@@ -87,7 +92,8 @@ void expect_host(Operation operation, Format format, std::uint64_t a, std::uint6
     ASSERT_LE(std::fabs(z), std::numeric_limits<Real>::min()) << std::hex << a << " " << b;
     return;
   }
-  ASSERT_EQ(other.exceptions, soft.exceptions) << std::hex << operation << " " << a << " " << b << " " << rounding;
+  ASSERT_EQ(other.exceptions, soft.exceptions)
+      << std::hex << operation << " " << a << " " << b << " " << rounding;
   if (!std::isnan(z)) {
     ASSERT_EQ(other.bits, soft.bits) << std::hex << operation << " " << a << " " << b << " " << rounding;
   }
@@ -104,7 +110,8 @@ std::uint64_t draw(std::mt19937_64& random, Format format, std::uint64_t near) {
     const std::uint64_t e = ((near & exponents) >> fraction) + random() % 9 - 4;
     value = (all & ~exponents) | (e << fraction & exponents);
   }
-  if (kind == 1 || kind == 6) value &= ~((std::uint64_t{1} << random() % fraction) - 1);  // few bits: ties and exact results
+  if (kind == 1 || kind == 6)
+    value &= ~((std::uint64_t{1} << random() % fraction) - 1);  // few bits: ties and exact results
   if (kind == 2) value |= (std::uint64_t{1} << random() % fraction) - 1;
   return value;
 }
@@ -119,10 +126,16 @@ void random_operands(std::uint64_t seed, int count) {
     const Rounding rounding = kModes[random() % 4];
     const Operation two = kTwo[random() % 4];
     expect_same(two, format, a, b, rounding);
-    if (format == kDouble) expect_host<double>(two, format, a, b, rounding);
-    else expect_host<float>(two, format, a, b, rounding);
+    if (format == kDouble)
+      expect_host<double>(two, format, a, b, rounding);
+    else
+      expect_host<float>(two, format, a, b, rounding);
     const Operation op = kOne[random() % 6];
-    expect_same(op, format, draw(random, format, one[format == kDouble] + (std::uint64_t{random() % 40} << (format == kDouble ? 52 : 23))), 0, rounding);
+    expect_same(
+        op, format,
+        draw(random, format,
+             one[format == kDouble] + (std::uint64_t{random() % 40} << (format == kDouble ? 52 : 23))),
+        0, rounding);
     expect_same(random() % 2 ? kCvtS : kCvtD, kWord, static_cast<std::uint32_t>(a), 0, rounding);
   }
 }
@@ -156,8 +169,15 @@ TEST(R3010Long, FastSoftAndHostAgreeOnMillionsOfRandomOperands) {
 }
 
 TEST(R3010, ConversionToAWordRoundsAsTheModeSays) {
-  struct Case { double value; std::int32_t nearest, zero, up, down; };
-  for (const Case& c : {Case{2.5, 2, 2, 3, 2}, {-2.5, -2, -2, -2, -3}, {3.5, 4, 3, 4, 3}, {0.4, 0, 0, 1, 0}, {-0.6, -1, 0, 0, -1},
+  struct Case {
+    double value;
+    std::int32_t nearest, zero, up, down;
+  };
+  for (const Case& c : {Case{2.5, 2, 2, 3, 2},
+                        {-2.5, -2, -2, -2, -3},
+                        {3.5, 4, 3, 4, 3},
+                        {0.4, 0, 0, 1, 0},
+                        {-0.6, -1, 0, 0, -1},
                         {2147483646.5, 2147483646, 2147483646, 2147483647, 2147483646}}) {
     const std::int32_t expected[] = {c.nearest, c.zero, c.up, c.down};
     for (const Rounding rounding : kModes) {
@@ -176,7 +196,9 @@ TEST(R3010, ConversionOfWhatDoesNotFitIsInvalid) {
 
 TEST(R3010, DenormalsAreUnimplementedAsOperandAndAsResult) {
   const std::uint64_t denormal = 1, smallest = bits(std::numeric_limits<double>::min());
-  for (const Operation operation : kTwo) EXPECT_EQ(unsigned{kUnimplemented}, compute(operation, kDouble, denormal, bits(1.0), kNearest).exceptions);
+  for (const Operation operation : kTwo)
+    EXPECT_EQ(unsigned{kUnimplemented},
+              compute(operation, kDouble, denormal, bits(1.0), kNearest).exceptions);
   EXPECT_EQ(unsigned{kUnimplemented}, compute(kMul, kDouble, smallest, bits(0.5), kNearest).exceptions);
   EXPECT_EQ(unsigned{kUnimplemented}, compute(kCvtS, kDouble, smallest, 0, kNearest).exceptions);
   EXPECT_EQ(0u, compute(kMul, kDouble, smallest, bits(1.0), kNearest).exceptions);
@@ -192,8 +214,14 @@ TEST(R3010, NansPropagateQuietlyAndSignalLoudly) {
 }
 
 TEST(R3010, ComparisonsAreAllSixteenOfTheirBits) {
-  const std::uint64_t values[] = {bits(-1.0), bits(-0.0), bits(0.0), bits(2.0), bits(-3.0), kQuiet,
-                                  bits(std::numeric_limits<double>::infinity()), 1};
+  const std::uint64_t values[] = {bits(-1.0),
+                                  bits(-0.0),
+                                  bits(0.0),
+                                  bits(2.0),
+                                  bits(-3.0),
+                                  kQuiet,
+                                  bits(std::numeric_limits<double>::infinity()),
+                                  1};
   for (const std::uint64_t a : values)
     for (const std::uint64_t b : values)
       for (unsigned condition = 0; condition < 16; ++condition) {
@@ -240,8 +268,10 @@ TEST(R3010, ControlRegistersOtherThanZeroAndTheStatusReadZero) {
 }
 
 TEST(R3010, FormatsAndFunctionsThatDoNotExistAreUnimplemented) {
-  const std::uint32_t words[] = {fp_word(kDouble, 4, 0, 0), fp_word(kSingle, 13, 0, 0),  // sqrt and trunc.w of MIPS II
-                                 fp_word(kSingle, kCvtS, 0, 0), fp_word(kWord, kAdd, 0, 0), fp_word(static_cast<Format>(18), kAdd, 0, 0)};
+  const std::uint32_t words[] = {fp_word(kDouble, 4, 0, 0),
+                                 fp_word(kSingle, 13, 0, 0),  // sqrt and trunc.w of MIPS II
+                                 fp_word(kSingle, kCvtS, 0, 0), fp_word(kWord, kAdd, 0, 0),
+                                 fp_word(static_cast<Format>(18), kAdd, 0, 0)};
   for (const std::uint32_t word : words) {
     State s;
     EXPECT_EQ(Outcome::kInterrupt, execute(s, word)) << std::hex << word;

@@ -42,8 +42,10 @@ TEST(MipsElf, EveryProgramIsFlaggedMipsIAndHoldsNoOtherWord) {
       // .rodata shares no section with code, so every word of these is an instruction.
       for (std::uint32_t at = 0; at < word(bytes, s + 20); at += 4, ++code) {
         const std::uint32_t w = word(bytes, word(bytes, s + 16) + at);
-        if (entry.path().stem().string().find("fault") != std::string::npos && w == 0x7000003F) continue;  // meant to be wrong
-        EXPECT_TRUE(r3000::is_mips1(w)) << entry.path() << std::hex << " " << word(bytes, s + 12) + at << " " << w;
+        if (entry.path().stem().string().find("fault") != std::string::npos && w == 0x7000003F)
+          continue;  // meant to be wrong
+        EXPECT_TRUE(r3000::is_mips1(w))
+            << entry.path() << std::hex << " " << word(bytes, s + 12) + at << " " << w;
       }
     }
     EXPECT_GT(code, 100u) << entry.path();
@@ -52,15 +54,15 @@ TEST(MipsElf, EveryProgramIsFlaggedMipsIAndHoldsNoOtherWord) {
 }
 
 TEST(MipsElf, WordsOfLaterLevelsAreNoMipsI) {
-  for (const std::uint32_t w : {0x50000001u,    // beql
-                                0x7C000000u,    // ext
-                                0x46200004u,    // sqrt.d
-                                0x4600000Du,    // trunc.w.s
-                                0x0000000Fu,    // sync
-                                0xC0000000u,    // ll
-                                0xD4000000u,    // ldc1
-                                0x00000034u,    // teq
-                                0x70000002u})   // mul
+  for (const std::uint32_t w : {0x50000001u,   // beql
+                                0x7C000000u,   // ext
+                                0x46200004u,   // sqrt.d
+                                0x4600000Du,   // trunc.w.s
+                                0x0000000Fu,   // sync
+                                0xC0000000u,   // ll
+                                0xD4000000u,   // ldc1
+                                0x00000034u,   // teq
+                                0x70000002u})  // mul
     EXPECT_FALSE(r3000::is_mips1(w)) << std::hex << w;
 }
 

@@ -29,14 +29,22 @@ double ulps(const std::string& name, double x, double y, double result, bool sin
   mpfr_inits2(300, a, b, exact, nullptr);
   mpfr_set_d(a, x, MPFR_RNDN);
   mpfr_set_d(b, y, MPFR_RNDN);
-  if (name == "sqrt") mpfr_sqrt(exact, a, MPFR_RNDN);
-  else if (name == "sin") mpfr_sin(exact, a, MPFR_RNDN);
-  else if (name == "cos") mpfr_cos(exact, a, MPFR_RNDN);
-  else if (name == "atan2") mpfr_atan2(exact, a, b, MPFR_RNDN);
-  else if (name == "exp") mpfr_exp(exact, a, MPFR_RNDN);
-  else if (name == "log") mpfr_log(exact, a, MPFR_RNDN);
-  else if (name == "floor") mpfr_floor(exact, a);
-  else ADD_FAILURE() << name;
+  if (name == "sqrt")
+    mpfr_sqrt(exact, a, MPFR_RNDN);
+  else if (name == "sin")
+    mpfr_sin(exact, a, MPFR_RNDN);
+  else if (name == "cos")
+    mpfr_cos(exact, a, MPFR_RNDN);
+  else if (name == "atan2")
+    mpfr_atan2(exact, a, b, MPFR_RNDN);
+  else if (name == "exp")
+    mpfr_exp(exact, a, MPFR_RNDN);
+  else if (name == "log")
+    mpfr_log(exact, a, MPFR_RNDN);
+  else if (name == "floor")
+    mpfr_floor(exact, a);
+  else
+    ADD_FAILURE() << name;
   double error = 0;
   if (mpfr_zero_p(exact)) {
     error = result == 0 ? 0 : 1e9;
@@ -51,8 +59,9 @@ double ulps(const std::string& name, double x, double y, double result, bool sin
 }
 
 TEST(MipsMaths, ErrorsStayBelowWhatTheHeaderSays) {
-  const std::map<std::string, double> bounds = {{"sqrt", 1}, {"sin", 1}, {"cos", 1}, {"atan2", 2}, {"exp", 1}, {"log", 1}, {"floor", 0},
-                                                {"fsqrt", 1}, {"fsin", 1}, {"fcos", 1}, {"fatan2", 1}, {"fexp", 1}, {"flog", 1}, {"ffloor", 0}};
+  const std::map<std::string, double> bounds = {
+      {"sqrt", 1},  {"sin", 1},  {"cos", 1},  {"atan2", 2},  {"exp", 1},  {"log", 1},  {"floor", 0},
+      {"fsqrt", 1}, {"fsin", 1}, {"fcos", 1}, {"fatan2", 1}, {"fexp", 1}, {"flog", 1}, {"ffloor", 0}};
   const Ran ran = run(qemu(elf("maths"), "3000"));
   ASSERT_EQ(0, ran.status);
   std::istringstream lines(ran.output);
@@ -63,13 +72,16 @@ TEST(MipsMaths, ErrorsStayBelowWhatTheHeaderSays) {
   while (lines >> name >> std::hex >> x >> y >> result) {
     ASSERT_TRUE(bounds.count(name)) << name;
     const bool single = name[0] == 'f' && name != "floor";
-    const double error = ulps(single ? name.substr(1) : name, real(x, single), real(y, single), real(result, single), single);
-    ASSERT_LE(error, bounds.at(name)) << name << " " << real(x, single) << " " << real(y, single) << " gives " << real(result, single);
+    const double error =
+        ulps(single ? name.substr(1) : name, real(x, single), real(y, single), real(result, single), single);
+    ASSERT_LE(error, bounds.at(name))
+        << name << " " << real(x, single) << " " << real(y, single) << " gives " << real(result, single);
     worst[name] = std::max(worst[name], error);
     ++count[name];
   }
   EXPECT_EQ(bounds.size(), count.size());
-  for (const auto& [function, error] : worst) std::printf("%-7s %6d values, worst %.3f ulp\n", function.c_str(), count[function], error);
+  for (const auto& [function, error] : worst)
+    std::printf("%-7s %6d values, worst %.3f ulp\n", function.c_str(), count[function], error);
 }
 
 }  // namespace

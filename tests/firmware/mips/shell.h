@@ -35,16 +35,21 @@ inline Ran run(const std::string& command) {
   Ran ran;
   FILE* pipe = ::popen((command + " 2>" + errors).c_str(), "r");
   std::array<char, 4096> buffer;
-  for (std::size_t got; (got = std::fread(buffer.data(), 1, buffer.size(), pipe)) > 0;) ran.output.append(buffer.data(), got);
+  for (std::size_t got; (got = std::fread(buffer.data(), 1, buffer.size(), pipe)) > 0;)
+    ran.output.append(buffer.data(), got);
   const int status = ::pclose(pipe);
   ran.status = WIFEXITED(status) ? WEXITSTATUS(status) : -1;
   ran.errors = read_file(errors);
   return ran;
 }
 
-inline std::string elf(const std::string& name) { return std::string(MIPS_FOLDER) + "/mips_" + name + ".elf"; }
-inline std::string model(const std::string& file, const std::string& arguments = "", const std::string& options = "") {
-  return std::string(DENDRO) + " exec sgi-4d35 " + file + " --quiet " + options + (arguments.empty() ? "" : " -- " + arguments);
+inline std::string elf(const std::string& name) {
+  return std::string(MIPS_FOLDER) + "/mips_" + name + ".elf";
+}
+inline std::string model(const std::string& file, const std::string& arguments = "",
+                         const std::string& options = "") {
+  return std::string(DENDRO) + " exec sgi-4d35 " + file + " --quiet " + options +
+         (arguments.empty() ? "" : " -- " + arguments);
 }
 inline std::string qemu(const std::string& file, const std::string& arguments = "") {
   return std::string(QEMU_MIPS) + " " + file + " " + arguments;

@@ -1,7 +1,17 @@
 /* Finishes what the R3010 gives up on: operations with denormal operands or results, by integers alone. */
 #include <stdint.h>
 
-enum { kSingle = 16, kDouble = 17, kAdd = 0, kSub = 1, kMul = 2, kDiv = 3, kCvtS = 32, kCvtD = 33, kCvtW = 36 };
+enum {
+  kSingle = 16,
+  kDouble = 17,
+  kAdd = 0,
+  kSub = 1,
+  kMul = 2,
+  kDiv = 3,
+  kCvtS = 32,
+  kCvtD = 33,
+  kCvtW = 36
+};
 enum { kInexact = 1, kUnderflow = 2, kOverflow = 4, kDivideByZero = 8, kInvalid = 16 };
 
 /* The monitor's copy of the program's registers; monitor.S knows the offsets. */
@@ -167,13 +177,20 @@ static unsigned to_word(struct frame* p, unsigned reg, const struct number n) {
 static int taken(const struct frame* p, uint32_t word) {
   const int32_t a = (int32_t)p->r[word >> 21 & 31], b = (int32_t)p->r[word >> 16 & 31];
   switch (word >> 26) {
-    case 1: return (a < 0) != (int)(word >> 16 & 1);
-    case 4: return a == b;
-    case 5: return a != b;
-    case 6: return a <= 0;
-    case 7: return a > 0;
-    case 17: return (int)(p->control >> 23 & 1) == (int)(word >> 16 & 1);
-    default: return 0;
+    case 1:
+      return (a < 0) != (int)(word >> 16 & 1);
+    case 4:
+      return a == b;
+    case 5:
+      return a != b;
+    case 6:
+      return a <= 0;
+    case 7:
+      return a > 0;
+    case 17:
+      return (int)(p->control >> 23 & 1) == (int)(word >> 16 & 1);
+    default:
+      return 0;
   }
 }
 
@@ -186,7 +203,8 @@ static uint32_t behind(struct frame* p) {
   return taken(p, word) ? p->epc + 4 + (uint32_t)((int32_t)(int16_t)word * 4) : p->epc + 8;
 }
 
-/* 1 if the operation is done and the program can go on, 0 if it cannot be. A branch has written its link already. */
+/* 1 if the operation is done and the program can go on, 0 if it cannot be. A branch has written its link
+ * already. */
 int finish_operation(struct frame* p) {
   const uint32_t word = *(const uint32_t*)(p->cause >> 31 ? p->epc + 4 : p->epc);
   const int format = (int)(word >> 21 & 31), operation = (int)(word & 63);
@@ -196,14 +214,22 @@ int finish_operation(struct frame* p) {
   const struct number a = unpack(p, format, fs);
   struct number b = unpack(p, format, ft);
   if (operation == kSub) b.negative = !b.negative;
-  if (operation <= kSub) exceptions = pack(p, format, fd, add(a, b, (int)p->control & 3));
-  else if (operation == kMul && ((a.infinite && b.zero) || (a.zero && b.infinite))) return 0;
-  else if (operation == kMul) exceptions = pack(p, format, fd, multiply(a, b));
-  else if (operation == kDiv) exceptions = pack(p, format, fd, divide(a, b)) | (b.zero && !a.infinite ? kDivideByZero : 0);
-  else if (operation == kCvtS && format == kDouble) exceptions = pack(p, kSingle, fd, a);
-  else if (operation == kCvtD && format == kSingle) exceptions = pack(p, kDouble, fd, a);
-  else if (operation == kCvtW) exceptions = to_word(p, fd, a);
-  else return 0;
+  if (operation <= kSub)
+    exceptions = pack(p, format, fd, add(a, b, (int)p->control & 3));
+  else if (operation == kMul && ((a.infinite && b.zero) || (a.zero && b.infinite)))
+    return 0;
+  else if (operation == kMul)
+    exceptions = pack(p, format, fd, multiply(a, b));
+  else if (operation == kDiv)
+    exceptions = pack(p, format, fd, divide(a, b)) | (b.zero && !a.infinite ? kDivideByZero : 0);
+  else if (operation == kCvtS && format == kDouble)
+    exceptions = pack(p, kSingle, fd, a);
+  else if (operation == kCvtD && format == kSingle)
+    exceptions = pack(p, kDouble, fd, a);
+  else if (operation == kCvtW)
+    exceptions = to_word(p, fd, a);
+  else
+    return 0;
   p->control = (p->control & ~0x3F000u) | exceptions << 12;
   if (exceptions & (p->control >> 7)) return 0; /* the program asked for the trap */
   p->control |= exceptions << 2;

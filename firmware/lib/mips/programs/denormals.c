@@ -8,13 +8,15 @@ static uint64_t draw(void) {
 }
 
 static double number(unsigned lowest, unsigned highest) {
-  const uint64_t all = (draw() & 0x800FFFFFFFFFFFFFull) | (uint64_t)(lowest + (unsigned)draw() % (highest - lowest + 1)) << 52;
+  const uint64_t all =
+      (draw() & 0x800FFFFFFFFFFFFFull) | (uint64_t)(lowest + (unsigned)draw() % (highest - lowest + 1)) << 52;
   double x;
   memcpy(&x, &all, 8);
   return x;
 }
 static float single(unsigned lowest, unsigned highest) {
-  const uint32_t all = ((uint32_t)draw() & 0x807FFFFFu) | (lowest + (unsigned)draw() % (highest - lowest + 1)) << 23;
+  const uint32_t all = ((uint32_t)draw() & 0x807FFFFFu) | (lowest + (unsigned)draw() % (highest - lowest + 1))
+                                                              << 23;
   float x;
   memcpy(&x, &all, 4);
   return x;
@@ -48,8 +50,10 @@ int main(void) {
     double r[8];
     float q[8];
     round_to(i & 3);
-    r[0] = a + b, r[1] = a - b, r[2] = a * c, r[3] = a / c, r[4] = d * a, r[5] = c / a, r[6] = s, r[7] = (double)t + a;
-    q[0] = s + t, q[1] = s - t, q[2] = s * u, q[3] = s / u, q[4] = v * t, q[5] = u / t, q[6] = (float)d, q[7] = (float)(a * c);
+    r[0] = a + b, r[1] = a - b, r[2] = a * c, r[3] = a / c, r[4] = d * a, r[5] = c / a, r[6] = s,
+    r[7] = (double)t + a;
+    q[0] = s + t, q[1] = s - t, q[2] = s * u, q[3] = s / u, q[4] = v * t, q[5] = u / t, q[6] = (float)d,
+    q[7] = (float)(a * c);
     const unsigned flags = control() & 0x7C;
     volatile float small = (float)(1e-38 * v);
     const float down = floorf(small) * 1.0f;

@@ -28,13 +28,17 @@ static double number(int low, int high) {
 }
 static double size(double x) { return x < 0 ? -x : x; }
 
-/* "name x y result" in bits, a line each; float results behind "f". Call with the number of rounds, 300 without. */
+/* "name x y result" in bits, a line each; float results behind "f". Call with the number of rounds, 300
+ * without. */
 int main(int argc, char** argv) {
   int rounds = 0;
-  for (const char* at = argc > 1 ? argv[1] : "300"; *at >= '0' && *at <= '9'; ++at) rounds = rounds * 10 + *at - '0';
+  for (const char* at = argc > 1 ? argv[1] : "300"; *at >= '0' && *at <= '9'; ++at)
+    rounds = rounds * 10 + *at - '0';
   for (int i = 0; i < rounds; ++i) {
-    const double any = size(number(-1000, 1000)), angle = number(-20, 20), near = number(-4, 3), other = number(-60, 60), y = number(-60, 60);
-    const float any_single = (float)size(number(-120, 120)), angle_single = (float)angle, y_single = (float)y, other_single = (float)other;
+    const double any = size(number(-1000, 1000)), angle = number(-20, 20), near = number(-4, 3),
+                 other = number(-60, 60), y = number(-60, 60);
+    const float any_single = (float)size(number(-120, 120)), angle_single = (float)angle, y_single = (float)y,
+                other_single = (float)other;
     const double power = number(-10, 9);
     const float power_single = (float)number(-10, 6);
     printf("sqrt %llx 0 %llx\n", bits(any), bits(sqrt(any)));
@@ -52,7 +56,8 @@ int main(int argc, char** argv) {
     printf("fsqrt %x 0 %x\n", bits_single(any_single), bits_single(sqrtf(any_single)));
     printf("fsin %x 0 %x\n", bits_single(angle_single), bits_single(sinf(angle_single)));
     printf("fcos %x 0 %x\n", bits_single(angle_single), bits_single(cosf(angle_single)));
-    printf("fatan2 %x %x %x\n", bits_single(y_single), bits_single(other_single), bits_single(atan2f(y_single, other_single)));
+    printf("fatan2 %x %x %x\n", bits_single(y_single), bits_single(other_single),
+           bits_single(atan2f(y_single, other_single)));
     printf("fexp %x 0 %x\n", bits_single(power_single), bits_single(expf(power_single)));
     printf("flog %x 0 %x\n", bits_single(any_single), bits_single(logf(any_single)));
     printf("ffloor %x 0 %x\n", bits_single(other_single), bits_single(floorf(other_single)));

@@ -23,7 +23,8 @@ static unsigned deep(unsigned depth) { /* a page of stack each */
   return (depth ? deep(depth - 1) : 0) + page[depth & 4095];
 }
 
-/* The allocator under random use, more pages than the TLB holds, moves that overlap, a file written and read again. */
+/* The allocator under random use, more pages than the TLB holds, moves that overlap, a file written and read
+ * again. */
 int main(int argc, char** argv) {
   static struct item items[100];
   unsigned bad = 0;
@@ -61,9 +62,10 @@ int main(int argc, char** argv) {
     unsigned char* again = malloc(300000);
     long got = 0, now;
     while ((now = dendro_call(kSysRead, in, (long)again + got, 300000 - got)) > 0) got += now;
-    printf("read %ld, same %d, at %ld\n", got, memcmp(again, pages, 300000) == 0, dendro_call(kSysLseek, in, 5, 0));
+    printf("read %ld, same %d, at %ld\n", got, memcmp(again, pages, 300000) == 0,
+           dendro_call(kSysLseek, in, 5, 0));
   }
-  printf("no file %ld, bad file %ld, bad address %ld\n", dendro_call(kSysOpen, (long)"/no/such/file", 0, 0), dendro_call(kSysClose, 77, 0, 0),
-         dendro_call(kSysWrite, 1, 0x1000, 5));
+  printf("no file %ld, bad file %ld, bad address %ld\n", dendro_call(kSysOpen, (long)"/no/such/file", 0, 0),
+         dendro_call(kSysClose, 77, 0, 0), dendro_call(kSysWrite, 1, 0x1000, 5));
   return 0;
 }
