@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "models/parts/host/host_port.h"
+#include "models/parts/service_block/service_block.h"
 #include "sim/config/parameters.h"
 #include "sim/trace/trace_file.h"
 
@@ -106,6 +107,25 @@ class Machine {
   virtual std::uint32_t peek(std::uint32_t address, unsigned function) const = 0;
 };
 
+/// A program in memory, as a loader leaves it; the monitor, if the machine has one, among its chunks.
+struct ProgramImage {
+  struct Chunk {
+    std::uint32_t physical = 0;
+    std::vector<std::uint8_t> bytes;
+  };
+  std::vector<Chunk> chunks;
+  std::uint32_t start = 0;  ///< first word executed
+  service_block::Program program;
+};
+
+struct ProgramResult {
+  bool stopped = false;  ///< by a service; otherwise the limit was reached
+  std::uint32_t pc = 0, return_address = 0;
+  std::uint64_t instructions = 0;
+  double clock_hz = 0;
+  std::vector<UnitStats> units;
+};
+
 /// One entry of the list of machines.
 struct MachineType {
   std::string name;      ///< "rds3000"
@@ -117,6 +137,9 @@ struct MachineType {
   std::function<std::unique_ptr<Machine>(const config::ParameterSet&, Level, const MachineOptions&)> make;
   /// Throws the UserError that make() would, and builds nothing. Empty: what make() refuses does not depend on the level.
   std::function<void(const config::ParameterSet&, Level)> check;
+  /// A machine whose programs are ELF files: runs one without a host program, at most `limit` words. Empty elsewhere.
+  std::function<ProgramResult(const config::ParameterSet&, Level, const ProgramImage&, service_block::Services&,
+                              std::uint64_t limit)> exec;
   std::vector<trace::Boundary> boundaries;  ///< where its units can be recorded and replayed
   /// Drives one unit alone with a trace, whose boundary is among those above. Levels are cycle and clocked. Throws
   /// UserError for a trace that is wrong in itself. May elaborate SystemC.

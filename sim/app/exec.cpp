@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <cstdio>
 #include <memory>
 
@@ -16,7 +17,7 @@ namespace {
 
 struct Options {
   study::ExecArguments exec;
-  std::vector<std::string> dumps, arguments;
+  std::vector<std::string> dumps;
   std::string json, progress = "auto";
   bool quiet = false;
 };
@@ -36,9 +37,6 @@ std::uint32_t number(const std::string& text, const std::string& whole) {
 }
 
 int execute(const study::Catalogue& catalogue, Options options) {
-  if (!options.arguments.empty())
-    throw UserError("", 0, options.arguments.front(),
-                    "a microprogram takes no arguments; give it data in its scratch areas");
   for (const std::string& dump : options.dumps) {
     const auto colon = dump.find(':');
     const std::string count = colon == std::string::npos ? "1" : dump.substr(colon + 1);
@@ -57,6 +55,17 @@ int execute(const study::Catalogue& catalogue, Options options) {
     for (std::size_t n = 0; n < output.dumps[i].size(); ++n)
       fmt::print("scratch[{}] = 0x{:08x}\n", options.exec.dumps[i].first + n, output.dumps[i][n]);
   const stats::RunObject& run = output.object;
+  if (output.prints_output) {  // standard output is the program's
+    if (!options.quiet)
+      fmt::print(
+          stderr,
+          "{}:{} level {}: {} instructions in {}, {:.0f} million/s, no time at this level, exit code {}\n",
+          run.machine, run.preset, run.level, stats::grouped(static_cast<std::int64_t>(run.instructions)),
+          stats::readable_seconds(run.host.seconds),
+          static_cast<double>(run.instructions) / 1e6 / std::max(run.host.seconds, 1e-9), output.exit_code);
+    json.commit(study::exec_json(output));
+    return output.exit_code;
+  }
   if (!options.quiet && options.json != "-")
     fmt::print("{}:{} level {}: {} microinstructions, {}, exit code {}\n", run.machine, run.preset, run.level,
                stats::grouped(static_cast<std::int64_t>(run.instructions)),
@@ -75,9 +84,11 @@ void add_exec(CLI::App& app, const study::Catalogue& catalogue, Action& action) 
   CLI::App* command = app.add_subcommand("exec", "run any program on a machine that has a processor");
   MachineOptions& machine = o->exec.options;
   command->add_option("machine", o->exec.machine, "NAME[:PRESET] or FILE.toml")->required();
-  command->add_option("program", o->exec.program, ".ucode file, or .gia source")->required();
-  command->add_option("args", o->arguments, "arguments of the program, after --");
-  command->add_option("--level", o->exec.level, "function, cycle or clocked")->check(some_text());
+  command->add_option("program", o->exec.program, ".ucode file or .gia source; an ELF file for sgi-4d35")
+      ->required();
+  command->add_option("args", o->exec.arguments, "arguments of the program, after --");
+  command->add_option("--level", o->exec.level, "function, cycle or clocked; cycle where the machine has it")
+      ->check(some_text());
   command->add_option("--set", o->exec.settings, "key=value of the machine")->allow_extra_args(false);
   command->add_option("--limit", machine.tick_limit, "ticks the processor may run")->check(whole_number(1));
   command->add_option("--dump", o->dumps, "ADDRESS[:COUNT] scratch words to print; one word without COUNT")

@@ -10,6 +10,7 @@
 #include "firmware/tools/ucode.h"
 #include "sim/base/error.h"
 #include "sim/study/algorithms.h"
+#include "sim/study/exec_elf.h"
 #include "sim/study/worker.h"
 
 namespace dendro::study {
@@ -67,7 +68,13 @@ Prepared prepare(const Catalogue& catalogue, const ExecArguments& arguments) {
   Prepared p;
   p.preset = exec_preset(catalogue, arguments);
   p.type = catalogue.machine(p.preset.machine);
-  p.level = level_of(arguments.level, *p.type);
+  if (p.type->exec)
+    throw UserError(arguments.program, 0, "",
+                    p.type->name + " has no boundary to record yet; programs run by `dendro exec`");
+  if (!arguments.arguments.empty())
+    throw UserError("", 0, arguments.arguments.front(),
+                    "a microprogram takes no arguments; give it data in its scratch areas");
+  p.level = exec_level(arguments, *p.type);
   if (p.preset.parameters.find("processor.tick_ns") == nullptr)
     throw UserError(p.preset.machine + " has no processor that runs a program by itself: its host sends it commands");
   p.ucode = load_ucode(arguments, p.preset.parameters);
@@ -134,11 +141,20 @@ config::Preset exec_preset(const Catalogue& catalogue, const ExecArguments& argu
   return preset;
 }
 
+Level exec_level(const ExecArguments& arguments, const MachineType& type) {
+  if (!arguments.level.empty()) return level_of(arguments.level, type);
+  for (const Level level : type.levels)
+    if (level == Level::kCycle) return level;
+  return type.levels.front();
+}
+
 void exec_here(const Catalogue& catalogue, const ExecArguments& arguments, Progress* progress) {
   run_here(prepare(catalogue, arguments), arguments, progress);
 }
 
 ExecOutput exec_program(const Catalogue& catalogue, const ExecArguments& arguments, Progress* progress) {
+  const MachineType* type = catalogue.machine(exec_preset(catalogue, arguments).machine);
+  if (type->exec) return exec_elf(catalogue, arguments);
   const Prepared prepared = prepare(catalogue, arguments);
   if (!arguments.options.vcd_file.empty() && prepared.level != Level::kClocked)
     throw UserError("--vcd", 0, "", "waveforms exist at --level clocked only");

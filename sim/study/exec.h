@@ -11,28 +11,34 @@ namespace dendro::study {
 /// A run of any program by the machine's generic host: load, run, wait for the halt.
 struct ExecArguments {
   std::string machine;  ///< NAME[:PRESET] or FILE.toml
-  std::string program;  ///< path of a .ucode file, or of a .gia source that is assembled first
-  std::string text;     ///< of the program, instead of the file's; `program` only names it then
-  std::string level = "cycle";
-  std::vector<std::string> settings;                           ///< key=value of machine parameters
+  std::string
+      program;        ///< path of a .ucode file, of a .gia source that is assembled first, or of an ELF file
+  std::string text;   ///< of the program, instead of the file's; `program` only names it then
+  std::string level;  ///< empty: cycle, or the machine's first
+  std::vector<std::string> arguments;  ///< of the program, its own name not among them
+  std::vector<std::string> settings;   ///< key=value of machine parameters
   std::vector<std::pair<std::uint32_t, std::uint32_t>> dumps;  ///< scratch address, words
   MachineOptions options;
 };
 
 struct ExecOutput {
-  stats::RunObject object;  ///< without scene, picture and error
-  int exit_code = 0;        ///< low byte of scratch word 0
+  stats::RunObject object;     ///< without scene, picture and error
+  int exit_code = 0;           ///< of a microprogram: low byte of scratch word 0
+  bool prints_output = false;  ///< the program wrote to standard output itself
   std::vector<std::vector<std::uint32_t>> dumps;
 };
 
 /// The machine that a program would run on, with the settings in its parameters. Throws UserError.
 config::Preset exec_preset(const Catalogue& catalogue, const ExecArguments& arguments);
 
-/// Runs the program in this process, for its effect on what `options` points to. At levels with time this elaborates
-/// SystemC: once per process. Throws UserError.
+/// The level that is asked for. Throws UserError.
+Level exec_level(const ExecArguments& arguments, const MachineType& type);
+
+/// Runs the program in this process, for its effect on what `options` points to. At levels with time this
+/// elaborates SystemC: once per process. Throws UserError.
 void exec_here(const Catalogue& catalogue, const ExecArguments& arguments, Progress* progress);
 
-/// Runs the program in a worker process. Throws UserError.
+/// Runs the program, a microprogram in a worker process. Throws UserError.
 ExecOutput exec_program(const Catalogue& catalogue, const ExecArguments& arguments, Progress* progress);
 
 std::string exec_json(const ExecOutput& output);

@@ -1,0 +1,55 @@
+# Programs for the R3000: Debian's cross compiler, MIPS I only, neither libgcc nor a libc.
+find_program(MIPS_GCC mips-linux-gnu-gcc)
+find_program(MIPS_OBJCOPY mips-linux-gnu-objcopy)
+find_program(QEMU_MIPS qemu-mips)
+foreach(tool MIPS_GCC:gcc-mips-linux-gnu MIPS_OBJCOPY:binutils-mips-linux-gnu QEMU_MIPS:qemu-user)
+  string(REPLACE ":" ";" pair ${tool})
+  list(GET pair 0 variable)
+  list(GET pair 1 package)
+  if(NOT ${variable})
+    message(FATAL_ERROR "The firmware of sgi-4d35 needs the Debian package ${package}; ./dev build installs it.")
+  endif()
+endforeach()
+
+set(MIPS_FLAGS -march=r3000 -mabi=32 -mfp32 -mno-abicalls -fno-pic -fno-pie -G0 -ffreestanding -fno-stack-protector
+  -fno-tree-loop-distribute-patterns -ffp-contract=off -fno-asynchronous-unwind-tables -Wall -Wextra -Wno-missing-field-initializers)
+set(MIPS_OPTIMISE -O2)
+
+# dendro_mips_objects(OUT FILES...): compiles C and assembly; OUT names the list of objects.
+function(dendro_mips_objects out)
+  set(objects)
+  foreach(source IN LISTS ARGN)
+    file(RELATIVE_PATH name ${PROJECT_SOURCE_DIR} ${source})
+    set(object ${PROJECT_BINARY_DIR}/mips/${name}.o)
+    get_filename_component(folder ${object} DIRECTORY)
+    file(MAKE_DIRECTORY ${folder})
+    if(NOT TARGET mips:${name})
+      add_custom_command(OUTPUT ${object}
+        COMMAND ${MIPS_GCC} ${MIPS_FLAGS} ${MIPS_OPTIMISE} -I${PROJECT_SOURCE_DIR} -MD -MF ${object}.d -c ${source} -o ${object}
+        DEPENDS ${source} DEPFILE ${object}.d COMMENT "mips ${name}" VERBATIM)
+    endif()
+    list(APPEND objects ${object})
+  endforeach()
+  set(${out} ${objects} PARENT_SCOPE)
+endfunction()
+
+# dendro_mips_program(TARGET FILES...): links FILES with firmware/lib/mips to mips/TARGET.elf (mapped, at 0x00400000) and
+# mips/TARGET-unmapped.elf (the same objects at 0x80400000) in the build tree.
+function(dendro_mips_program target)
+  dendro_mips_objects(objects ${ARGN})
+  set(script ${PROJECT_SOURCE_DIR}/firmware/lib/mips/program.ld)
+  set(outputs)
+  foreach(link mapped:0x00400000: unmapped:0x80400000:-unmapped)
+    string(REPLACE ":" ";" parts "${link}")
+    list(GET parts 1 base)
+    list(GET parts 2 suffix)
+    set(output ${PROJECT_BINARY_DIR}/mips/${target}${suffix}.elf)
+    add_custom_command(OUTPUT ${output}
+      COMMAND ${MIPS_GCC} ${MIPS_FLAGS} -no-pie -nostdlib -static -Wl,--defsym=BASE=${base} -Wl,--build-id=none
+              -Wl,-z,max-page-size=0x1000 -T ${script} ${objects} ${MIPS_LIBRARY_OBJECTS} -o ${output}
+      DEPENDS ${objects} ${MIPS_LIBRARY_OBJECTS} ${script} COMMENT "mips ${target}${suffix}.elf" VERBATIM)
+    list(APPEND outputs ${output})
+  endforeach()
+  add_custom_target(${target} ALL DEPENDS ${outputs})
+  add_dependencies(${target} dendro_mips_library)
+endfunction()

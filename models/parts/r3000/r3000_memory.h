@@ -1,0 +1,154 @@
+#pragma once
+
+#include "models/parts/r3000/r3000.h"
+
+namespace dendro::r3000 {
+
+template <class Port>
+void Core<Port>::forget_maps() {
+  for (Maps& maps : maps_) maps = Maps();
+  refetch_ = true;
+}
+
+template <class Port>
+void Core<Port>::forget() {
+  code_.clear();
+  forget_maps();
+}
+
+template <class Port>
+bool Core<Port>::misaligned(std::uint32_t address, unsigned size, Access access) {
+  if ((address & (size - 1)) == 0) return false;
+  fault_ = {};
+  fault_.code = access == Access::kStore ? kAdes : kAdel;
+  fault_.address = address;
+  fault_.has_address = true;
+  return true;
+}
+
+template <class Port>
+bool Core<Port>::load(std::uint32_t address, unsigned size, std::uint32_t& value) {
+  const Mapping& m = maps().read[address >> 12 & (kMappings - 1)];
+  if ((address & (kPageMask | (size - 1))) != m.tag) return slow_load(address, size, value);
+  const std::uint8_t* p = m.bytes + (address & ~kPageMask);
+  value = size == 4 ? load32(p) : size == 2 ? load16(p) : *p;
+  return true;
+}
+
+template <class Port>
+bool Core<Port>::store(std::uint32_t address, unsigned size, std::uint32_t value) {
+  const Mapping& m = maps().write[address >> 12 & (kMappings - 1)];
+  if ((address & (kPageMask | (size - 1))) != m.tag) return slow_store(address, size, value);
+  std::uint8_t* p = m.bytes + (address & ~kPageMask);
+  if (size == 4) {
+    store32(p, value);
+  } else {
+    if (size == 2) *p++ = static_cast<std::uint8_t>(value >> 8);
+    *p = static_cast<std::uint8_t>(value);
+  }
+  return true;
+}
+
+template <class Port>
+bool Core<Port>::slow_load(std::uint32_t address, unsigned size, std::uint32_t& value) {
+  std::uint32_t physical = 0;
+  if (misaligned(address, size, Access::kLoad) || !translate(s_, address, Access::kLoad, physical, fault_))
+    return false;
+  if (s_.status & kStatusIsc) {  // the caches alone, which this level does not have
+    value = 0;
+    return true;
+  }
+  if (std::uint8_t* bytes = port_.page(physical)) {
+    maps().read[address >> 12 & (kMappings - 1)] = {address & kPageMask, bytes};
+    return load(address, size, value);
+  }
+  leave_ = true;
+  if (port_.read(physical, size, value)) return true;
+  fault_ = {};
+  fault_.code = kDbe;
+  return false;
+}
+
+template <class Port>
+bool Core<Port>::slow_store(std::uint32_t address, unsigned size, std::uint32_t value) {
+  std::uint32_t physical = 0;
+  if (misaligned(address, size, Access::kStore) || !translate(s_, address, Access::kStore, physical, fault_))
+    return false;
+  if (s_.status & kStatusIsc) return true;
+  if (std::uint8_t* bytes = port_.page(physical)) {
+    const auto code = code_.find(physical & kPageMask);
+    if (code == code_.end()) {
+      maps().write[address >> 12 & (kMappings - 1)] = {address & kPageMask, bytes};
+      return store(address, size, value);
+    }
+    std::uint8_t* p = bytes + (physical & ~kPageMask);
+    for (unsigned i = 0; i < size; ++i) p[i] = static_cast<std::uint8_t>(value >> 8 * (size - 1 - i));
+    code_.erase(code);
+    refetch_ = true;
+    return true;
+  }
+  leave_ = true;
+  if (port_.write(physical, size, value)) return true;
+  fault_ = {};
+  fault_.code = kDbe;
+  return false;
+}
+
+template <class Port>
+const Decoded* Core<Port>::fetch_page(std::uint32_t address) {
+  std::uint32_t physical = 0;
+  if (misaligned(address, 4, Access::kFetch) || !translate(s_, address, Access::kFetch, physical, fault_))
+    return nullptr;
+  auto& code = code_[physical & kPageMask];
+  if (!code) {
+    const std::uint8_t* bytes = port_.page(physical);
+    if (bytes == nullptr) {
+      code_.erase(physical & kPageMask);
+      fault_ = {};
+      fault_.code = kIbe;
+      return nullptr;
+    }
+    std::array<std::uint32_t, kPageWords> words;
+    for (unsigned i = 0; i < kPageWords; ++i) words[i] = load32(bytes + 4 * i);
+    code = std::make_unique<std::array<Decoded, kPageWords>>();
+    decode_page(words.data(), kPageWords, code->data());
+    forget_maps();  // from here on a store to this page must be noticed
+  }
+  return code->data();
+}
+
+/// lwl takes the bytes from the address to the end of its word into the top of the register, lwr those from
+/// the word's beginning to the address into its bottom [GEN; MIPS I].
+template <class Port>
+bool Core<Port>::load_part(const Decoded& d, bool left, std::uint32_t& value) {
+  const std::uint32_t address = s_.r[d.rs] + d.imm;
+  const unsigned byte = address & 3;
+  std::uint32_t word = 0;
+  if (!load(address & ~3u, 4, word)) {
+    if (fault_.has_address) fault_.address = address;
+    return false;
+  }
+  const std::uint32_t old = s_.r[d.rt];
+  if (left)
+    value = word << 8 * byte | (byte == 0 ? 0 : old & (0xFFFFFFFFu >> (32 - 8 * byte)));
+  else
+    value = word >> 8 * (3 - byte) | (byte == 3 ? 0 : old & (0xFFFFFFFFu << 8 * (byte + 1)));
+  return true;
+}
+
+template <class Port>
+bool Core<Port>::store_part(const Decoded& d, bool left) {
+  const std::uint32_t address = s_.r[d.rs] + d.imm;
+  const std::uint32_t value = s_.r[d.rt];
+  const unsigned first = left ? address & 3 : 0, last = left ? 3 : address & 3;
+  for (unsigned i = first; i <= last; ++i) {
+    const unsigned down = left ? 8 * (3 - (i - first)) : 8 * (last - i);
+    if (!store((address & ~3u) + i, 1, value >> down & 0xFF)) {
+      if (fault_.has_address) fault_.address = address;
+      return false;
+    }
+  }
+  return true;
+}
+
+}  // namespace dendro::r3000

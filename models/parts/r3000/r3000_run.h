@@ -1,0 +1,464 @@
+#pragma once
+
+#include "models/parts/r3000/r3000.h"
+
+namespace dendro::r3000 {
+
+template <class Port>
+std::uint64_t Core<Port>::run(std::uint64_t budget) {
+  while (budget != 0 && !port_.stopped()) {
+    if (interrupt_due(s_)) {
+      fault_ = {};
+      enter_exception(s_, fault_);
+      refetch_ = true;
+    }
+    if (s_.pending_reg != 0) {
+      run_after_load();
+      --budget;
+    } else {
+      budget = run_plain(budget);
+    }
+  }
+  return budget;
+}
+
+/// One word in the slot of a load that it may read: it sees the register's old value, and what it writes
+/// there wins.
+template <class Port>
+void Core<Port>::run_after_load() {
+  const unsigned reg = s_.pending_reg;
+  const std::uint32_t value = s_.pending_value;
+  s_.pending_reg = 0;
+  const Decoded* page = fetch_page(s_.pc);
+  const Decoded d = page ? page[s_.pc >> 2 & (kPageWords - 1)] : Decoded();
+  refetch_ = true;
+  const bool merges = (d.op == Op::kLwl || d.op == Op::kLwr) && d.rt == reg;
+  if (merges) s_.r[reg] = value;
+  const std::uint64_t exceptions = s_.exceptions;
+  run_plain(1);
+  if (!merges && (s_.exceptions != exceptions || destination_of(d) != reg)) s_.r[reg] = value;
+}
+
+template <class Port>
+bool Core<Port>::coprocessor1() {
+  if (s_.status & kStatusCu1) return true;
+  fault_ = {};
+  fault_.code = kCpu;
+  fault_.coprocessor = 1;
+  return false;
+}
+
+template <class Port>
+void Core<Port>::fpu_line() {
+  const unsigned line = 1u << spec_.fpu_interrupt;
+  s_.lines = static_cast<std::uint8_t>(s_.fpu.interrupting() ? s_.lines | line : s_.lines & ~line);
+}
+
+/// False: the R3010 interrupts this word.
+template <class Port>
+bool Core<Port>::control_to_fpu(std::uint32_t value) {
+  s_.fpu.control = value & r3010::kControlWritable;
+  fpu_line();
+  fault_ = {};
+  return !s_.fpu.interrupting() || !interrupt_due(s_);
+}
+
+template <class Port>
+bool Core<Port>::execute_fp(const Decoded& d) {
+  const r3010::Outcome outcome = r3010::execute(s_.fpu, d.imm);
+  if (outcome == r3010::Outcome::kDone) return true;
+  fault_ = {};
+  fpu_line();
+  return !interrupt_due(s_);
+}
+
+template <class Port>
+void Core<Port>::multiply_divide(const Decoded& d) {
+  const std::uint32_t a = s_.r[d.rs], b = s_.r[d.rt];
+  if (d.op == Op::kMult || d.op == Op::kMultu) {
+    const std::uint64_t product =
+        d.op == Op::kMultu ? std::uint64_t{a} * b
+                           : static_cast<std::uint64_t>(std::int64_t{static_cast<std::int32_t>(a)} *
+                                                        static_cast<std::int32_t>(b));
+    s_.hi = static_cast<std::uint32_t>(product >> 32);
+    s_.lo = static_cast<std::uint32_t>(product);
+    return;
+  }
+  if (b == 0) {  // no exception; what the restoring divider leaves. ASSUMED DEV-114
+    s_.lo = d.op == Op::kDiv && static_cast<std::int32_t>(a) < 0 ? 1 : 0xFFFFFFFF;
+    s_.hi = a;
+  } else if (d.op == Op::kDivu) {
+    s_.lo = a / b;
+    s_.hi = a % b;
+  } else if (a == 0x80000000 && b == 0xFFFFFFFF) {
+    s_.lo = a;
+    s_.hi = 0;
+  } else {
+    s_.lo = static_cast<std::uint32_t>(static_cast<std::int32_t>(a) / static_cast<std::int32_t>(b));
+    s_.hi = static_cast<std::uint32_t>(static_cast<std::int32_t>(a) % static_cast<std::int32_t>(b));
+  }
+}
+
+/// mtc0 and the operations of coprocessor 0.
+template <class Port>
+bool Core<Port>::execute_cp0(const Decoded& d) {
+  if (s_.user() && !(s_.status & kStatusCu0)) {
+    fault_ = {};
+    fault_.code = kCpu;
+    return false;
+  }
+  const auto drop = [this](std::uint32_t hi) {
+    for (Maps& maps : maps_)
+      maps.read[hi >> 12 & (kMappings - 1)] = maps.write[hi >> 12 & (kMappings - 1)] = Mapping();
+  };
+  switch (d.op) {
+    case Op::kMtc0: {
+      const std::uint32_t status = s_.status, hi = s_.entry_hi;
+      write_cp0(s_, d.rd, s_.r[d.rt]);
+      if (((s_.status ^ status) & kStatusIsc) || ((s_.entry_hi ^ hi) & kHiAsid)) forget_maps();
+      break;
+    }
+    case Op::kTlbwi:
+    case Op::kTlbwr: {
+      const unsigned index = d.op == Op::kTlbwi ? s_.index >> 8 & 63 : random_of(s_);
+      drop(s_.tlb[index].hi);
+      tlb_write(s_, index);
+      drop(s_.tlb[index].hi);
+      break;
+    }
+    case Op::kTlbr:
+      tlb_read(s_);
+      break;
+    case Op::kTlbp:
+      tlb_probe(s_);
+      break;
+    default:
+      return_from_exception(s_);
+      break;
+  }
+  if (d.op == Op::kTlbr) forget_maps();  // it may bring another address space
+  refetch_ = true;
+  leave_ = d.op == Op::kMtc0 || d.op == Op::kRfe;
+  return true;
+}
+
+/// Where nothing reads a load's register in its slot. Ends early after a word that run() must look behind.
+template <class Port>
+std::uint64_t Core<Port>::run_plain(std::uint64_t budget) {
+  std::uint32_t* const r = s_.r;
+  std::uint32_t pc = s_.pc, npc = s_.next_pc;
+  std::uint64_t left = budget, faults = 0;
+  std::uint64_t branch_left =
+      s_.in_slot ? budget + 1 : 0;  // `left` at the last branch, so that a slot is known
+  std::uint32_t page_address = 1;
+  const Decoded* page = nullptr;
+  const std::uint64_t base = s_.instructions;
+  leave_ = false;
+  refetch_ = true;
+  const auto s32 = [](std::uint32_t value) { return static_cast<std::int32_t>(value); };
+  while (left != 0 && !leave_) {
+    if (__builtin_expect(((pc ^ page_address) & (kPageMask | 3)) != 0 || refetch_, 0)) {
+      refetch_ = false;
+      page_address = pc & kPageMask;
+      page = fetch_page(pc);
+      refetch_ = false;
+    }
+    std::uint32_t next = npc + 4, value = 0;
+    bool good = page != nullptr;
+    const Decoded d = good ? page[pc >> 2 & (kPageWords - 1)] : Decoded();
+    const auto branch = [&](bool taken) {
+      branch_left = left;
+      if (taken) next = pc + d.imm;
+    };
+    const auto reserved = [&] {
+      good = false;
+      fault_ = {};
+    };
+    if (__builtin_expect(good, 1)) switch (d.op) {
+        case Op::kNop:
+          goto plain;
+        case Op::kSll:
+          r[d.rd] = r[d.rt] << d.imm;
+          goto plain;
+        case Op::kSrl:
+          r[d.rd] = r[d.rt] >> d.imm;
+          goto plain;
+        case Op::kSra:
+          r[d.rd] = static_cast<std::uint32_t>(s32(r[d.rt]) >> d.imm);
+          goto plain;
+        case Op::kSllv:
+          r[d.rd] = r[d.rt] << (r[d.rs] & 31);
+          goto plain;
+        case Op::kSrlv:
+          r[d.rd] = r[d.rt] >> (r[d.rs] & 31);
+          goto plain;
+        case Op::kSrav:
+          r[d.rd] = static_cast<std::uint32_t>(s32(r[d.rt]) >> (r[d.rs] & 31));
+          goto plain;
+        case Op::kAdd: {
+          const std::uint32_t sum = r[d.rs] + r[d.rt];
+          good = s32((r[d.rs] ^ sum) & (r[d.rt] ^ sum)) >= 0;
+          if (good)
+            r[d.rd] = sum;
+          else
+            fault_ = {}, fault_.code = kOv;
+          break;
+        }
+        case Op::kAddu:
+          r[d.rd] = r[d.rs] + r[d.rt];
+          goto plain;
+        case Op::kSub: {
+          const std::uint32_t difference = r[d.rs] - r[d.rt];
+          good = s32((r[d.rs] ^ r[d.rt]) & (r[d.rs] ^ difference)) >= 0;
+          if (good)
+            r[d.rd] = difference;
+          else
+            fault_ = {}, fault_.code = kOv;
+          break;
+        }
+        case Op::kSubu:
+          r[d.rd] = r[d.rs] - r[d.rt];
+          goto plain;
+        case Op::kAnd:
+          r[d.rd] = r[d.rs] & r[d.rt];
+          goto plain;
+        case Op::kOr:
+          r[d.rd] = r[d.rs] | r[d.rt];
+          goto plain;
+        case Op::kXor:
+          r[d.rd] = r[d.rs] ^ r[d.rt];
+          goto plain;
+        case Op::kNor:
+          r[d.rd] = ~(r[d.rs] | r[d.rt]);
+          goto plain;
+        case Op::kSlt:
+          r[d.rd] = s32(r[d.rs]) < s32(r[d.rt]);
+          goto plain;
+        case Op::kSltu:
+          r[d.rd] = r[d.rs] < r[d.rt];
+          goto plain;
+        case Op::kAddi: {
+          const std::uint32_t sum = r[d.rs] + d.imm;
+          good = s32((r[d.rs] ^ sum) & (d.imm ^ sum)) >= 0;
+          if (good)
+            r[d.rt] = sum;
+          else
+            fault_ = {}, fault_.code = kOv;
+          break;
+        }
+        case Op::kAddiu:
+          r[d.rt] = r[d.rs] + d.imm;
+          goto plain;
+        case Op::kSlti:
+          r[d.rt] = s32(r[d.rs]) < s32(d.imm);
+          goto plain;
+        case Op::kSltiu:
+          r[d.rt] = r[d.rs] < d.imm;
+          goto plain;
+        case Op::kAndi:
+          r[d.rt] = r[d.rs] & d.imm;
+          goto plain;
+        case Op::kOri:
+          r[d.rt] = r[d.rs] | d.imm;
+          goto plain;
+        case Op::kXori:
+          r[d.rt] = r[d.rs] ^ d.imm;
+          goto plain;
+        case Op::kLui:
+          r[d.rt] = d.imm;
+          goto plain;
+        case Op::kMult:
+        case Op::kMultu:
+        case Op::kDiv:
+        case Op::kDivu:
+          multiply_divide(d);
+          break;
+        case Op::kMfhi:
+          r[d.rd] = s_.hi;
+          break;
+        case Op::kMthi:
+          s_.hi = r[d.rs];
+          break;
+        case Op::kMflo:
+          r[d.rd] = s_.lo;
+          break;
+        case Op::kMtlo:
+          s_.lo = r[d.rs];
+          break;
+        case Op::kJal:
+          r[31] = pc + 8;
+          [[fallthrough]];
+        case Op::kJ:
+          branch(false);
+          next = ((pc + 4) & 0xF0000000) | d.imm;
+          break;
+        case Op::kJalr: {
+          const std::uint32_t target = r[d.rs];
+          r[d.rd] = pc + 8;
+          branch(false);
+          next = target;
+          break;
+        }
+        case Op::kJr:
+          branch(false);
+          next = r[d.rs];
+          break;
+        case Op::kBeq:
+          branch(r[d.rs] == r[d.rt]);
+          goto plain;
+        case Op::kBne:
+          branch(r[d.rs] != r[d.rt]);
+          goto plain;
+        case Op::kBlez:
+          branch(s32(r[d.rs]) <= 0);
+          goto plain;
+        case Op::kBgtz:
+          branch(s32(r[d.rs]) > 0);
+          goto plain;
+        case Op::kBltz:
+          branch(s32(r[d.rs]) < 0);
+          goto plain;
+        case Op::kBgez:
+          branch(s32(r[d.rs]) >= 0);
+          goto plain;
+        case Op::kBltzal:
+        case Op::kBgezal: {
+          const bool taken = (s32(r[d.rs]) < 0) == (d.op == Op::kBltzal);
+          r[31] = pc + 8;
+          branch(taken);
+          break;
+        }
+        case Op::kBc0f:
+        case Op::kBc0t:
+          if (s_.user() && !(s_.status & kStatusCu0))
+            reserved(), fault_.code = kCpu;
+          else
+            branch(d.op == Op::kBc0f);  // the condition input is not connected and reads 0
+          break;
+        case Op::kBc1f:
+        case Op::kBc1t:
+          good = coprocessor1();
+          if (good) branch(s_.fpu.condition() == (d.op == Op::kBc1t));
+          break;
+        case Op::kLb:
+          good = load(r[d.rs] + d.imm, 1, value);
+          value = static_cast<std::uint32_t>(static_cast<std::int8_t>(value));
+          goto loaded;
+        case Op::kLbu:
+          good = load(r[d.rs] + d.imm, 1, value);
+          goto loaded;
+        case Op::kLh:
+          good = load(r[d.rs] + d.imm, 2, value);
+          value = static_cast<std::uint32_t>(static_cast<std::int16_t>(value));
+          goto loaded;
+        case Op::kLhu:
+          good = load(r[d.rs] + d.imm, 2, value);
+          goto loaded;
+        case Op::kLw:
+          good = load(r[d.rs] + d.imm, 4, value);
+          goto loaded;
+        case Op::kLwl:
+        case Op::kLwr:
+          good = load_part(d, d.op == Op::kLwl, value);
+          goto loaded;
+        case Op::kMfc0:
+          good = !s_.user() || (s_.status & kStatusCu0);
+          if (!good) fault_ = {}, fault_.code = kCpu;
+          s_.instructions = base + (budget - left) - faults;
+          value = read_cp0(s_, spec_, d.imm, random_of(s_));
+          goto loaded;
+        case Op::kMfc1:
+          good = coprocessor1();
+          value = s_.fpu.r[d.imm];
+          goto loaded;
+        case Op::kCfc1:
+          good = coprocessor1();
+          value = r3010::read_control(s_.fpu, d.imm);
+          goto loaded;
+        loaded:
+          if (!good) break;
+          if (d.rd != 0 && d.rt != kNowhere) {  // somebody may read it too early
+            s_.pending_reg = d.rt;
+            s_.pending_value = value;
+            leave_ = true;
+          } else {
+            r[d.rt] = value;
+          }
+          break;
+        case Op::kSb:
+          good = store(r[d.rs] + d.imm, 1, r[d.rt] & 0xFF);
+          break;
+        case Op::kSh:
+          good = store(r[d.rs] + d.imm, 2, r[d.rt] & 0xFFFF);
+          break;
+        case Op::kSw:
+          good = store(r[d.rs] + d.imm, 4, r[d.rt]);
+          break;
+        case Op::kSwl:
+        case Op::kSwr:
+          good = store_part(d, d.op == Op::kSwl);
+          break;
+        case Op::kLwc1:
+          good = coprocessor1() && load(r[d.rs] + d.imm, 4, value);
+          if (good) s_.fpu.r[d.rt] = value;
+          break;
+        case Op::kSwc1:
+          good = coprocessor1() && store(r[d.rs] + d.imm, 4, s_.fpu.r[d.rt]);
+          break;
+        case Op::kMtc1:
+          good = coprocessor1();
+          if (good) s_.fpu.r[d.rd] = r[d.rt];
+          break;
+        case Op::kCtc1:
+          good = coprocessor1() && (d.rd != 31 || control_to_fpu(r[d.rt]));
+          leave_ = true;
+          break;
+        case Op::kFp:
+          good = coprocessor1() && execute_fp(d);
+          break;
+        case Op::kMtc0:
+        case Op::kTlbr:
+        case Op::kTlbwi:
+        case Op::kTlbwr:
+        case Op::kTlbp:
+        case Op::kRfe:
+          s_.instructions = base + (budget - left) - faults;
+          good = execute_cp0(d);
+          break;
+        case Op::kSyscall:
+          reserved(), fault_.code = kSys;
+          break;
+        case Op::kBreak:
+          reserved(), fault_.code = kBp;
+          break;
+        case Op::kCopUnusable:
+          reserved(), fault_.code = kCpu, fault_.coprocessor = d.rd;
+          break;
+        case Op::kReserved:
+          reserved(), fault_.code = kRi;
+          break;
+      }
+    if (__builtin_expect(good, 1)) {
+    plain:
+      pc = npc;
+      npc = next;
+    } else {
+      s_.pc = pc;
+      s_.in_slot = branch_left == left + 1;
+      enter_exception(s_, fault_);
+      pc = s_.pc;
+      npc = s_.next_pc;
+      refetch_ = true;
+      branch_left = 0;
+      ++faults;
+    }
+    --left;
+  }
+  s_.pc = pc;
+  s_.next_pc = npc;
+  s_.in_slot = branch_left != 0 && branch_left == left + 1;
+  s_.instructions = base + (budget - left) - faults;
+  return left;
+}
+
+}  // namespace dendro::r3000

@@ -1,0 +1,93 @@
+#include "tests/firmware/mips/shell.h"
+
+namespace dendro::mips {
+namespace {
+
+void expect_as_qemu(const std::string& program, const std::string& arguments, const std::string& input = "") {
+  const std::string before = input.empty() ? "" : "printf '" + input + "' | ",
+                    after = input.empty() ? " </dev/null" : "";
+  const Ran reference = run(before + qemu(elf(program), arguments) + after);
+  ASSERT_FALSE(reference.output.empty()) << reference.errors;
+  for (const char* suffix : {"", "-unmapped"}) {
+    const Ran ran = run(before + model(elf(program + suffix), arguments) + after);
+    EXPECT_EQ(reference.output, ran.output) << program << suffix << ran.errors;
+    EXPECT_EQ(reference.status, ran.status) << program << suffix;
+    EXPECT_EQ("", ran.errors);
+  }
+}
+
+TEST(MipsPrograms, ArgumentsInputOutputAndExitCodeAreThoseOfQemu) {
+  expect_as_qemu("hello", "one 'two words' 3", "some input\\nmore");
+}
+
+TEST(MipsPrograms, InputLongerThanAPageIsRead) {
+  std::string long_input;
+  for (int i = 0; i < 700; ++i) long_input += "0123456789";
+  expect_as_qemu("hello", "x", long_input);
+}
+
+TEST(MipsPrograms, SixtyFourBitIntegersAreThoseOfQemu) { expect_as_qemu("integers", ""); }
+
+TEST(MipsPrograms, MathematicsIsThatOfQemu) { expect_as_qemu("maths", "60"); }
+
+TEST(MipsPrograms, AllocatorPagesAndFilesAreThoseOfQemu) { expect_as_qemu("memory", scratch() + "/data"); }
+
+TEST(MipsPrograms, WhatTheFloatingPointUnitGivesUpOnIsFinishedAsQemuDoesIt) {
+  expect_as_qemu("denormals", "");
+}
+
+TEST(MipsPrograms, ReportsFaultsWithPlaceAndCause) {
+  struct Case {
+    const char* what;
+    const char* text;
+  };
+  for (const Case& c : {Case{"u", "AdEL"}, {"n", "TLBL"}, {"k", "AdEL"}, {"d", "Bp"}, {"r", "RI"}}) {
+    const Ran ran = run(model(elf("fault"), c.what));
+    EXPECT_EQ(2, ran.status) << c.what;
+    EXPECT_NE(std::string::npos, ran.errors.find(std::string("raised ") + c.text + " at 0x")) << ran.errors;
+    EXPECT_NE(std::string::npos, ran.errors.find("(main+0x")) << ran.errors;
+    EXPECT_EQ(ran.errors.size() - 1, ran.errors.find('\n'));
+  }
+}
+
+TEST(MipsPrograms, AnEndlessProgramEndsAtItsLimit) {
+  const Ran ran = run(model(elf("fault"), "l", "--limit 100000"));
+  EXPECT_EQ(2, ran.status);
+  EXPECT_NE(std::string::npos, ran.errors.find("100000 instructions")) << ran.errors;
+  EXPECT_NE(std::string::npos, ran.errors.find("(main+0x")) << ran.errors;
+}
+
+TEST(MipsPrograms, TheJsonOfARunHasNoTimeAtFunction) {
+  const std::string json = scratch() + "/run.json";
+  const Ran ran = run(model(elf("hello"), "", "--json " + json) + " </dev/null");
+  ASSERT_EQ(0, ran.status) << ran.errors;
+  const std::string text = read_file(json);
+  for (const char* part : {"\"machine\": \"sgi-4d35\"", "\"level\": \"function\"", "\"cycles\": null",
+                           "\"clock_hz\": 36000000", "\"exit_code\": 0"})
+    EXPECT_NE(std::string::npos, text.find(part)) << part << "\n" << text;
+}
+
+TEST(MipsPrograms, AnImpossibleMachineIsRefused) {
+  for (const char* bytes : {"8388608", "1000000000000", "-1", "33554433"}) {
+    const Ran ran =
+        run(model(elf("hello"), "", std::string("--set memory.main_bytes=") + bytes) + " </dev/null");
+    EXPECT_EQ(2, ran.status) << bytes;
+    EXPECT_NE(std::string::npos, ran.errors.find("memory.main_bytes")) << ran.errors;
+  }
+}
+
+TEST(MipsPrograms, CommandsThatCannotDriveTheMachineSaySo) {
+  const std::string dendro = DENDRO;
+  for (const std::string& command :
+       {dendro + " run icosahedron --machine sgi-4d35", dendro + " levels icosahedron --machine sgi-4d35",
+        model(elf("hello"), "", "--level cycle"), model(elf("hello"), "", "--dump 0"),
+        dendro + " record --exec sgi-4d35 " + elf("hello") + " --boundary sgi_4d35.memory --out " +
+            scratch() + "/t"}) {
+    const Ran ran = run(command + " </dev/null");
+    EXPECT_EQ(2, ran.status) << command << ran.errors;
+    EXPECT_EQ(ran.errors.size() - 1, ran.errors.find('\n')) << command << ran.errors;
+  }
+}
+
+}  // namespace
+}  // namespace dendro::mips
