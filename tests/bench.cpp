@@ -132,6 +132,8 @@ class Tape : public HostPort {
   void wait_interrupt() override {}
   void compute(const Work&) override {}
   void phase(std::string_view) override {}
+  std::uint32_t peek(std::uint32_t, unsigned) const override { return 0; }
+  void program(std::string_view, std::uint32_t) override {}
 };
 
 // The 200 trees of 12 planes of FG86 6.3, 14.4 ms of the machine's time; argument 1: tiles that cannot be seen are left.

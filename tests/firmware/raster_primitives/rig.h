@@ -45,13 +45,14 @@ class ArrayPort : public HostPort {
     return device_.peek(static_cast<std::uint32_t>(y * spec_.array.width + x), low) & ((std::uint64_t{1} << bits) - 1);
   }
   Picture picture() { return device_.picture(); }
-  std::uint32_t peek(std::uint32_t pixel, unsigned low) { return device_.peek(pixel, low); }
+  std::uint32_t peek(std::uint32_t pixel, unsigned low) const override { return device_.peek(pixel, low); }
+  void program(std::string_view, std::uint32_t) override {}
 
   std::uint64_t clocks = 0, flops = 0;
 
  private:
   pixel_planes::Spec spec_;
-  pixel_planes::Device device_;
+  mutable pixel_planes::Device device_;  // reading brings waiting tiles up to date
 };
 
 /// floor(T) at a pixel, from the coefficients as the translator rounds them.
