@@ -5,6 +5,7 @@
 #include <map>
 #include <memory>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -76,6 +77,13 @@ struct MachineOptions {
   std::map<std::uint32_t, std::string> counted;   ///< `function` only: microwords whose executions are counted
   std::function<void(std::int64_t tick)> progress;  ///< called now and then with the simulated time; may be empty
   trace::Writer* recorder = nullptr;  ///< `cycle` only: gathers the records of one boundary
+
+  /// A machine with one page of control store: the marks of this program from word `first` on take the place of all others.
+  void program_loaded(std::string_view name, std::uint32_t first) {
+    marks.clear();
+    if (const auto known = programs.find(std::string(name)); known != programs.end())
+      for (const auto& [at, mark] : known->second) marks[first + at] = mark;
+  }
 };
 
 /// One machine at one level of fidelity, for one run.

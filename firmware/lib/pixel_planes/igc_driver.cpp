@@ -38,6 +38,7 @@ void IgcDriver::load() {
     words.push_back(static_cast<std::uint32_t>(word >> 32));
   }
   host_.dma_to(kControlStore, words.data(), words.size(), 0);
+  host_.program(programs_.name, 0);
 }
 
 void IgcDriver::show(unsigned colour_low, int width, int height) {

@@ -59,7 +59,7 @@ class ClockedEngine : public sc_core::sc_module, public HostPort {
   void compute(const Work& work) override;
   void phase(std::string_view name) override;
   std::uint32_t peek(std::uint32_t address, unsigned function) const override;
-  void program(std::string_view, std::uint32_t) override {}
+  void program(std::string_view name, std::uint32_t first) override { options_.program_loaded(name, first); }
 
   std::int64_t clocks() const { return next_clock_; }
   std::int64_t host_busy_ps() const { return host_busy_ps_; }

@@ -53,7 +53,7 @@ class CycleMachine : public Machine, private HostPort {
   void wait_interrupt() override;
   void compute(const Work& work) override;
   void phase(std::string_view name) override;
-  void program(std::string_view, std::uint32_t) override {}
+  void program(std::string_view name, std::uint32_t first) override { options_.program_loaded(name, first); }
 
   std::int64_t clock_at(std::int64_t ps) const { return (ps + spec_.tick_ps - 1) / spec_.tick_ps; }
   void spend(std::int64_t ps) { now_ps_ += ps, busy_ps_ += ps; }
