@@ -310,7 +310,7 @@ TEST_F(BadInput, CommandLines) {
   expect_user_error("run icosahedron --vcd x.vcd", "clocked");
   expect_user_error("run icosahedron --level clocked --vcd x.vcd --vcd-units lamp", "no unit \"lamp\"");
   expect_user_error("exec rds3000 gone.ucode", "gone.ucode: cannot read the file");
-  expect_user_error("asm pixel-planes gone.gia -o x", "rds3000");
+  expect_user_error("asm sgi-4d35 gone.gia -o x", "rds3000");
 }
 
 }  // namespace
