@@ -210,14 +210,16 @@ bool expression_bit(const igc::Command& command, int x, int y, unsigned bit) {
 }
 
 void apply_words(const Spec& spec, const igc::Command& command, const std::vector<ArrayWord>& words,
-                 ArrayState& state) {
+                 ArrayState& state, const std::vector<std::uint32_t>* only) {
   constexpr std::size_t kFew = 4;
   const std::vector<Step> steps = steps_of(words, spec.tree.gap_clocks);
   std::size_t tree_bits = 0;
   int longest = 0;
   for (const Step& step : steps) tree_bits += step.bit >= 0, longest = std::max(longest, step.bit + 1);
   const int per_row = spec.array.width / 64;
-  for (std::size_t at = 0; at < state.enable.size(); ++at) {
+  const std::size_t count = only ? only->size() : state.enable.size();
+  for (std::size_t k = 0; k < count; ++k) {
+    const std::size_t at = only ? (*only)[k] : k;
     Group group(state, at);
     TreeBits tree(command, static_cast<int>(at) % per_row * 64, static_cast<int>(at) / per_row, longest > 64,
                   tree_bits <= kFew);
