@@ -14,6 +14,7 @@
 #include "sim/base/error.h"
 #include "sim/base/sha256.h"
 #include "sim/config/document.h"
+#include "sim/study/equalisation.h"
 #include "sim/study/igc_programs.h"
 #include "sim/study/primitives.h"
 
@@ -191,6 +192,7 @@ const std::vector<Algorithm>& algorithms() {
         "mip", "trunk_base", "trunk_range", "trunk_distance", "fraction_bits", "guard_bits", "edge_fraction_bits", "variant",
         "colouring"}},
       raster_primitives_algorithm(),
+      equalisation_algorithm(),
   };
   return list;
 }
@@ -223,6 +225,7 @@ std::vector<Firmware> firmware_list() {
     list.push_back({"half_space", kPixelPlanes, programs.name, fmt::format("{}p", ports), programs.sha256, programs.words.size()});
   }
   for (Firmware& firmware : raster_primitives_firmware()) list.push_back(std::move(firmware));
+  list.push_back(equalisation_firmware());
   return list;
 }
 

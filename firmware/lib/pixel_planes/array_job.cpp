@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <tuple>
 
 #include "sim/base/error.h"
@@ -14,6 +15,17 @@ void check_picture_fits(const scene::Image& image, const ArraySite& site) {
     if (side > most)
       throw UserError(image.where.file, image.where.line, key,
                       fmt::format("{} is more than the {} pixels of the array", side, most));
+}
+
+unsigned signed_bits(std::int64_t a, std::int64_t b, std::int64_t c, int width, int height) {
+  std::int64_t low = c, high = c;
+  for (const auto& [slope, side] : {std::pair(a, width), std::pair(b, height)}) {
+    const std::int64_t reach = slope * (side - 1);
+    low += std::min<std::int64_t>(0, reach), high += std::max<std::int64_t>(0, reach);
+  }
+  unsigned bits = 1;
+  while (low < -(std::int64_t{1} << (bits - 1)) || high >= std::int64_t{1} << (bits - 1)) ++bits;
+  return bits;
 }
 
 FirmwareImage firmware_image(const IgcPrograms& programs) {

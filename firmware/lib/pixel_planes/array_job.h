@@ -20,6 +20,9 @@ struct ArraySite {
 /// Throws UserError for a picture that is larger than the array.
 void check_picture_fits(const scene::Image& image, const ArraySite& site);
 
+/// Bits, sign included, that hold a·x + b·y + c at every pixel of an array.
+unsigned signed_bits(std::int64_t a, std::int64_t b, std::int64_t c, int width, int height);
+
 /// The microprograms as a job reports them: each one's entry is the symbol phase_PHASE.NAME.
 FirmwareImage firmware_image(const IgcPrograms& programs);
 
