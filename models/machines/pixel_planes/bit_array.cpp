@@ -138,13 +138,6 @@ class TreeBits {
   std::uint64_t low_[64], high_[64];
 };
 
-/// An array word and which bit of the expression it meets; -1: none, or a leading zero.
-struct Step {
-  ArrayWord word;
-  int bit = -1;
-  bool last_enable = false;  ///< no word behind it sets E again
-};
-
 /// Which registers the words behind a place still use.
 struct Live {
   bool enable = false, carry = false, data = false;
@@ -182,14 +175,14 @@ Live before(const ArrayWord& w, Live live) {
 }
 
 /// The words of a command that change the memory, themselves or through registers; E, C and D need not be right behind it.
-std::vector<Step> steps_of(const std::vector<ArrayWord>& words, int gap) {
-  std::vector<Step> steps;
+std::vector<ArrayStep> steps_of(const std::vector<ArrayWord>& words, int gap) {
+  std::vector<ArrayStep> steps;
   int position = 0;
   for (const ArrayWord& word : words) {
     steps.push_back({word, word.tree && position >= gap ? position - gap : -1, false});
     position = word.tree ? position + 1 : 0;
   }
-  std::vector<Step> used;
+  std::vector<ArrayStep> used;
   Live live;
   bool set_behind = false;
   for (auto step = steps.rbegin(); step != steps.rend(); ++step) {
@@ -211,17 +204,20 @@ bool expression_bit(const igc::Command& command, int x, int y, unsigned bit) {
 
 void apply_words(const Spec& spec, const igc::Command& command, const std::vector<ArrayWord>& words,
                  ArrayState& state) {
+  apply_steps(spec, command, steps_of(words, spec.tree.gap_clocks), state);
+}
+
+void apply_steps(const Spec& spec, const igc::Command& command, const std::vector<ArrayStep>& steps, ArrayState& state) {
   constexpr std::size_t kFew = 4;
-  const std::vector<Step> steps = steps_of(words, spec.tree.gap_clocks);
   std::size_t tree_bits = 0;
   int longest = 0;
-  for (const Step& step : steps) tree_bits += step.bit >= 0, longest = std::max(longest, step.bit + 1);
+  for (const ArrayStep& step : steps) tree_bits += step.bit >= 0, longest = std::max(longest, step.bit + 1);
   const int per_row = spec.array.width / 64;
   for (std::size_t at = 0; at < state.enable.size(); ++at) {
     Group group(state, at);
     TreeBits tree(command, static_cast<int>(at) % per_row * 64, static_cast<int>(at) / per_row, longest > 64,
                   tree_bits <= kFew);
-    for (const Step& step : steps) {
+    for (const ArrayStep& step : steps) {
       group.apply(step.word, step.bit >= 0 ? tree.bit(static_cast<unsigned>(step.bit)) : 0, spec.array.ports);
       if (step.last_enable && group.is_disabled()) break;
     }
