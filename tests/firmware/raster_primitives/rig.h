@@ -24,7 +24,7 @@ lib::IgcPrograms assemble(const std::vector<std::string>& names, const Layout& l
 /// A host whose words go to an array without time; counts the words that programs send to the array.
 class ArrayPort : public HostPort {
  public:
-  explicit ArrayPort(const pixel_planes::Spec& spec) : spec_(spec), device_(spec, false) {}
+  explicit ArrayPort(const pixel_planes::Spec& spec, bool lazy = false) : spec_(spec), device_(spec, lazy) {}
 
   std::uint32_t read(std::uint32_t, unsigned) override { return 0; }
   void write(std::uint32_t address, std::uint32_t value, unsigned) override {
@@ -44,6 +44,8 @@ class ArrayPort : public HostPort {
   std::uint32_t field(int x, int y, unsigned low, unsigned bits) {
     return device_.peek(static_cast<std::uint32_t>(y * spec_.array.width + x), low) & ((std::uint64_t{1} << bits) - 1);
   }
+  const std::vector<pixel_planes::Plane>& memory() { return device_.engine().bits().memory; }
+  const pixel_planes::WordCounters& counters() { return device_.engine().counters(); }
   Picture picture() { return device_.picture(); }
   std::uint32_t peek(std::uint32_t pixel, unsigned low) const override { return device_.peek(pixel, low); }
   void program(std::string_view, std::uint32_t) override {}
