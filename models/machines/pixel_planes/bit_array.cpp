@@ -200,13 +200,6 @@ class RowBits {
   std::array<Lanes, 64> planes_{};
 };
 
-/// An array word and which bit of the expression it meets; -1: none, or a leading zero.
-struct Step {
-  ArrayWord word;
-  int bit = -1;
-  bool last_enable = false;  ///< no word behind it sets E again
-};
-
 /// Which registers the words behind a place still use.
 struct Live {
   bool enable = false, carry = false, data = false;
@@ -244,14 +237,14 @@ Live before(const ArrayWord& w, Live live) {
 }
 
 /// The words of a command that change the memory, themselves or through registers; E, C and D need not be right behind it.
-std::vector<Step> steps_of(const std::vector<ArrayWord>& words, int gap) {
-  std::vector<Step> steps;
+std::vector<ArrayStep> steps_of(const std::vector<ArrayWord>& words, int gap) {
+  std::vector<ArrayStep> steps;
   int position = 0;
   for (const ArrayWord& word : words) {
     steps.push_back({word, word.tree && position >= gap ? position - gap : -1, false});
     position = word.tree ? position + 1 : 0;
   }
-  std::vector<Step> used;
+  std::vector<ArrayStep> used;
   Live live;
   bool set_behind = false;
   for (auto step = steps.rbegin(); step != steps.rend(); ++step) {
@@ -266,14 +259,14 @@ std::vector<Step> steps_of(const std::vector<ArrayWord>& words, int gap) {
 }
 
 template <class Bit>
-void run(const std::vector<Step>& steps, int ports, Group& group, const Bit& bit) {
-  for (const Step& step : steps) {
+void run(const std::vector<ArrayStep>& steps, int ports, Group& group, const Bit& bit) {
+  for (const ArrayStep& step : steps) {
     group.apply(step.word, step.bit >= 0 ? bit(static_cast<unsigned>(step.bit)) : Lanes{}, ports);
     if (step.last_enable && group.is_disabled()) return;
   }
 }
 
-void apply_in_rows(const Spec& spec, const igc::Command& command, const std::vector<Step>& steps, std::size_t bits,
+void apply_in_rows(const Spec& spec, const igc::Command& command, const std::vector<ArrayStep>& steps, std::size_t bits,
                    ArrayState& state) {
   const auto per_row = static_cast<std::uint32_t>(spec.array.width / 64);
   RowBits tree(command, bits);
@@ -292,7 +285,7 @@ void apply_in_rows(const Spec& spec, const igc::Command& command, const std::vec
   }
 }
 
-void apply_to(const Spec& spec, const igc::Command& command, const std::vector<Step>& steps, int longest, std::size_t tree_bits,
+void apply_to(const Spec& spec, const igc::Command& command, const std::vector<ArrayStep>& steps, int longest, std::size_t tree_bits,
               ArrayState& state, const std::vector<std::uint32_t>& only) {
   constexpr std::size_t kFew = 4;
   const int per_row = spec.array.width / 64;
@@ -323,10 +316,14 @@ bool expression_bit(const igc::Command& command, int x, int y, unsigned bit) {
 
 void apply_words(const Spec& spec, const igc::Command& command, const std::vector<ArrayWord>& words,
                  ArrayState& state, const std::vector<std::uint32_t>* only) {
-  const std::vector<Step> steps = steps_of(words, spec.tree.gap_clocks);
+  apply_steps(spec, command, steps_of(words, spec.tree.gap_clocks), state, only);
+}
+
+void apply_steps(const Spec& spec, const igc::Command& command, const std::vector<ArrayStep>& steps, ArrayState& state,
+                 const std::vector<std::uint32_t>* only) {
   std::size_t tree_bits = 0;
   int longest = 0;
-  for (const Step& step : steps) tree_bits += step.bit >= 0, longest = std::max(longest, step.bit + 1);
+  for (const ArrayStep& step : steps) tree_bits += step.bit >= 0, longest = std::max(longest, step.bit + 1);
   if (only == nullptr && longest <= 64) {
     apply_in_rows(spec, command, steps, static_cast<std::size_t>(longest), state);
     return;

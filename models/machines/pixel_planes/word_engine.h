@@ -8,6 +8,7 @@
 #include "models/machines/pixel_planes/pixel_planes_spec.h"
 #include "models/machines/pixel_planes/pixel_planes_state.h"
 #include "models/machines/pixel_planes/tile_kernels.h"
+#include "sim/base/check.h"
 
 namespace dendro::pixel_planes {
 
@@ -33,6 +34,12 @@ class WordEngine {
 
   /// All memory as bit planes. E, C and D are not kept.
   const ArrayState& bits();
+
+  /// The memory before the first command: zeros unless it is changed here.
+  ArrayState& before_first() {
+    DENDRO_CHECK(fields_.empty() && bits_current_, "{} fields", fields_.size());
+    return bits_;
+  }
 
   const WordCounters& counters() const { return counters_; }
 
