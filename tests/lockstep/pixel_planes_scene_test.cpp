@@ -75,6 +75,16 @@ TEST(PixelPlanesScenes, EveryVariantIsEqual) {
   }
 }
 
+TEST(PixelPlanesScenes, EqualisationIsEqualWhicheverWayRegionsAreSent) {
+  for (const char* method : {"polygon", "rows"}) {
+    SCOPED_TRACE(method);
+    expect_levels_equal("radiograph",
+                        {"parameters.host.program_load_ms=0.1", "parameters.array.width=64", "parameters.array.height=64",
+                         "image.width=64", "image.height=48", "adaptive_equalisation.region=16",
+                         std::string("adaptive_equalisation.method=") + method});
+  }
+}
+
 /// The picture at level `clocked`, by the route of `dendro run`.
 std::vector<std::uint8_t> clocked_picture(const std::string& gap) {
   const study::Catalogue all{{pixel_planes_type()}, study::algorithms(), SHARE};

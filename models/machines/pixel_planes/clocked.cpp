@@ -13,16 +13,6 @@ constexpr std::int64_t kProgressClocks = std::int64_t{1} << 20;
 std::int64_t now_in_ps() { return static_cast<std::int64_t>(sc_core::sc_time_stamp().value()); }
 sc_core::sc_time ps(std::int64_t t) { return sc_core::sc_time::from_value(static_cast<sc_dt::uint64>(t)); }
 
-igc::PlanesSpec planes_of(const Spec& spec) {
-  igc::PlanesSpec planes;
-  planes.levels_x = static_cast<unsigned>(spec.levels_x()),
-  planes.levels_y = static_cast<unsigned>(spec.levels_y());
-  planes.memory_bits = static_cast<unsigned>(spec.array.memory_bits);
-  planes.ports = static_cast<unsigned>(spec.array.ports);
-  planes.masked = spec.tree.masked;
-  return planes;
-}
-
 }  // namespace
 
 ClockedEngine::ClockedEngine(sc_core::sc_module_name name, const Spec& spec, const MachineOptions& options)
@@ -32,12 +22,8 @@ ClockedEngine::ClockedEngine(sc_core::sc_module_name name, const Spec& spec, con
       tick_ps_(spec.tick_ps),
       translator_(spec.setup_clocks),
       controller_(spec.tree.gap_clocks),
-      feed_(static_cast<unsigned>(spec.levels_x() - 1), static_cast<unsigned>(spec.latency() - 1),
-            static_cast<unsigned>(spec.tree.gap_clocks)),
-      planes_(planes_of(spec)),
-      way_(static_cast<std::size_t>(spec.latency())),
-      next_refresh_ps_(spec.refresh_interval_ps > 0 ? spec.refresh_interval_ps : INT64_MAX),
-      next_video_ps_(spec.video_interval_ps > 0 ? spec.video_interval_ps : INT64_MAX) {
+      array_(spec),
+      thieves_(spec) {
   DENDRO_CHECK(sc_core::sc_get_time_resolution() == sc_core::sc_time(1, sc_core::SC_PS),
                "SystemC's resolution is not 1 ps");
   DENDRO_CHECK(tick_ps_ >= 2, "tick of {} ps", tick_ps_);
@@ -73,7 +59,7 @@ void ClockedEngine::on_clock() {
 
 void ClockedEngine::evaluate(std::int64_t n) {
   apply_writes(n);
-  const ClockedCause thief = steal(n);
+  const ClockedCause thief = thieves_.steal(n);
   const bool stolen = thief != ClockedCause::kBusy;
   const ClockedCause cause = cause_of(thief);
   idle_before_ = !fifo_.has_word(n) && behind_fifo_idle();
@@ -90,25 +76,10 @@ void ClockedEngine::evaluate(std::int64_t n) {
   if (n % kProgressClocks == 0 && options_.progress) options_.progress(n);
 }
 
-/// Who takes the clock: kRefresh, kVideo, or kBusy for nobody.
-ClockedCause ClockedEngine::steal(std::int64_t n) {
-  const std::int64_t now_ps = n * tick_ps_;
-  while (next_refresh_ps_ <= now_ps || next_video_ps_ <= now_ps) {
-    const bool refresh = next_refresh_ps_ <= next_video_ps_;
-    steals_.push_back(refresh ? ClockedCause::kRefresh : ClockedCause::kVideo);
-    (refresh ? next_refresh_ps_ : next_video_ps_) +=
-        refresh ? spec_.refresh_interval_ps : spec_.video_interval_ps;
-  }
-  if (steals_.empty()) return ClockedCause::kBusy;
-  const ClockedCause thief = steals_.front();
-  steals_.pop_front();
-  return thief;
-}
-
 ClockedCause ClockedEngine::cause_of(ClockedCause thief) const {
   if (controller_.running() || translator_.ready()) return thief;
   if (fifo_.has_word(next_clock_ - 1) || !translator_.idle()) return ClockedCause::kTranslator;
-  return words_on_their_way_ > 0 ? ClockedCause::kDrain : ClockedCause::kIdle;
+  return array_.words_on_their_way() > 0 ? ClockedCause::kDrain : ClockedCause::kIdle;
 }
 
 void ClockedEngine::count(ClockedCause cause) {
@@ -135,10 +106,6 @@ void ClockedEngine::count(ClockedCause cause) {
 }
 
 void ClockedEngine::move_array(std::int64_t n, bool ready) {
-  OnItsWay& slot = way_[way_at_];
-  const OnItsWay arrived = slot;
-  slot = {};
-  way_at_ = (way_at_ + 1) % way_.size();
   if (!controller_.running() && ready) {
     const igc::Header header = translator_.command().header;
     if (!header.register_write && !controller_.has_end(header.entry)) {
@@ -153,16 +120,12 @@ void ClockedEngine::move_array(std::int64_t n, bool ready) {
   if (controller_.running()) {
     const ClockedController::Sent sent = controller_.send();
     const igc::Command& command = controller_.command();
-    if (sent.starts_stream) feed_.start(command.a, command.b, command.c);
-    slot = {true, sent.word};
-    ++words_on_their_way_;
+    if (sent.starts_stream) array_.start(command.a, command.b, command.c);
+    array_.clock(&sent.word);
   } else {
     controller_.pause();
+    array_.clock(nullptr);
   }
-  lines_ = feed_.clock();
-  obeyed_ = arrived.word;
-  planes_.clock(lines_, arrived.word);
-  if (arrived.word_sent) --words_on_their_way_;
 }
 
 void ClockedEngine::book(const igc::Header& header, std::int64_t n) {
@@ -208,11 +171,11 @@ void ClockedEngine::after_clock() {
 bool ClockedEngine::idle_now() const { return fifo_.empty() && behind_fifo_idle(); }
 
 bool ClockedEngine::behind_fifo_idle() const {
-  return translator_.idle() && !controller_.running() && words_on_their_way_ == 0;
+  return translator_.idle() && !controller_.running() && array_.words_on_their_way() == 0;
 }
 
 bool ClockedEngine::cannot_become_idle() const {
-  return translator_.lacks_words() && fifo_.empty() && !controller_.running() && words_on_their_way_ == 0;
+  return translator_.lacks_words() && fifo_.empty() && !controller_.running() && array_.words_on_their_way() == 0;
 }
 
 void ClockedEngine::apply_writes(std::int64_t n) {

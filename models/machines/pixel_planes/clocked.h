@@ -10,16 +10,13 @@
 #include <vector>
 
 #include "models/machines/machine.h"
+#include "models/machines/pixel_planes/clocked_array_side.h"
 #include "models/machines/pixel_planes/clocked_front.h"
 #include "models/machines/pixel_planes/clocked_vcd.h"
 #include "models/machines/pixel_planes/pixel_planes_spec.h"
 #include "models/machines/pixel_planes/pixel_planes_state.h"
-#include "models/parts/igc/clocked_planes.h"
 
 namespace dendro::pixel_planes {
-
-/// What a clock was used for; the order of the waveform.
-enum class ClockedCause : std::uint8_t { kBusy, kRefresh, kVideo, kTranslator, kDrain, kIdle };
 
 /// Level `clocked`: every clock is a SystemC event in which FIFO, translator, controller, tree and array move
 /// on by one. Written from the data sheets alone, as the referee of `cycle`. SystemC's time resolution must
@@ -69,7 +66,7 @@ class ClockedEngine : public sc_core::sc_module, public HostPort {
   const std::vector<Stretch>& machine_phases() const { return stretches_; }
   bool time_read() const { return time_read_; }  ///< the host has read the status
   const VideoState& video() const { return video_; }
-  igc::ClockedPlanes& planes() { return planes_; }
+  igc::ClockedPlanes& planes() { return array_.planes(); }
 
  private:
   friend class ClockedVcd;
@@ -77,7 +74,6 @@ class ClockedEngine : public sc_core::sc_module, public HostPort {
   // clocked.cpp
   void on_clock();
   void evaluate(std::int64_t n);
-  ClockedCause steal(std::int64_t n);
   ClockedCause cause_of(ClockedCause thief) const;
   void count(ClockedCause cause);
   void move_array(std::int64_t n, bool ready);
@@ -106,10 +102,6 @@ class ClockedEngine : public sc_core::sc_module, public HostPort {
     std::int64_t clock = 0;
     std::uint32_t index = 0, value = 0;
   };
-  struct OnItsWay {
-    bool word_sent = false;
-    igc::ArrayWord word;
-  };
 
   Spec spec_;
   MachineOptions options_;
@@ -118,13 +110,8 @@ class ClockedEngine : public sc_core::sc_module, public HostPort {
   ClockedFifo fifo_;
   ClockedTranslator translator_;
   ClockedController controller_;
-  igc::TreeFeed feed_;
-  mutable igc::ClockedPlanes planes_;  // reading works out clocks that wait
-  std::vector<OnItsWay> way_;  ///< control words in the delay that equals the tree's
-  std::size_t way_at_ = 0;
-  unsigned words_on_their_way_ = 0;
-  std::deque<ClockedCause> steals_;  ///< due, not yet taken
-  std::int64_t next_refresh_ps_, next_video_ps_;
+  mutable ClockedArraySide array_;  // reading works out clocks that wait
+  ClockedThieves thieves_;
   VideoState video_;
 
   std::int64_t next_clock_ = 0;
@@ -144,8 +131,6 @@ class ClockedEngine : public sc_core::sc_module, public HostPort {
   FifoCounters fifo_counters_;
   std::vector<HostPhase> phases_;
   std::vector<Stretch> stretches_;
-  igc::ArrayWord obeyed_;  ///< by the array in the last clock that was not stolen
-  igc::TreeLines lines_;
   std::unique_ptr<ClockedVcd> vcd_;
 };
 

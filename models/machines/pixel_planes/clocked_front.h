@@ -92,6 +92,7 @@ class ClockedController {
     return static_cast<std::uint32_t>(store_[index / 2] >> (index % 2 * 32));
   }
   void set_half(std::uint32_t index, std::uint32_t value);
+  void set_register(unsigned number, unsigned value) { registers_.at(number) = static_cast<std::uint8_t>(value); }
 
   const igc::Command& command() const { return command_; }
   unsigned address() const { return address_; }

@@ -155,7 +155,7 @@ void ClockedEngine::phase(std::string_view name) {
 std::uint32_t ClockedEngine::peek(std::uint32_t address, unsigned function) const {
   const auto width = static_cast<std::uint32_t>(spec_.array.width);
   if (address >= static_cast<std::uint32_t>(spec_.pixels())) return 0;
-  return planes_.memory_word(function, address % width, address / width);
+  return array_.planes().memory_word(function, address % width, address / width);
 }
 
 }  // namespace dendro::pixel_planes

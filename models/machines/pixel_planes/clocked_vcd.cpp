@@ -47,16 +47,16 @@ void ClockedVcd::before(std::int64_t n) {
   writer_.set(running_, engine_.controller_.running());
   writer_.set(address_, engine_.controller_.address());
   writer_.set(turn_, engine_.controller_.turn());
-  writer_.set(enabled_, engine_.planes_.enabled());
+  writer_.set(enabled_, engine_.array_.planes().enabled());
 }
 
 void ClockedVcd::after(ClockedCause cause) {
   writer_.set(cause_, static_cast<std::uint64_t>(cause));
-  writer_.set(a_, engine_.lines_.a);
-  writer_.set(b_, engine_.lines_.b);
-  writer_.set(c_, engine_.lines_.c);
-  writer_.set(clear_, engine_.lines_.clear);
-  const igc::ArrayWord& w = engine_.obeyed_;
+  writer_.set(a_, engine_.array_.lines().a);
+  writer_.set(b_, engine_.array_.lines().b);
+  writer_.set(c_, engine_.array_.lines().c);
+  writer_.set(clear_, engine_.array_.lines().clear);
+  const igc::ArrayWord& w = engine_.array_.obeyed();
   writer_.set(function_, static_cast<std::uint64_t>(w.function));
   writer_.set(x_, static_cast<std::uint64_t>(w.x));
   writer_.set(y_, static_cast<std::uint64_t>(w.y));

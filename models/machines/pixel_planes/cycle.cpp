@@ -10,53 +10,46 @@
 namespace dendro::pixel_planes {
 
 CycleMachine::CycleMachine(const Spec& spec, const MachineOptions& options)
-    : spec_(spec), options_(options), device_(spec, true), timing_(spec) {}
+    : spec_(spec), options_(options), board_(spec) {
+  if (options.recorder) recorder_ = make_recorder(*options.recorder, spec_, board_);
+}
 
 void CycleMachine::run(const std::function<void(HostPort&)>& host_program) {
   host_program(*this);
-  if (device_.lacks_words()) throw Device::never_idle();
-  end_ = std::max(clock_at(now_ps_), timing_.idle_from());
-  timing_.finish(end_);
+  if (board_.lacks_words()) throw Device::never_idle();
+  end_ = std::max(clock_at(now_ps_), board_.timing().idle_from());
+  if (recorder_) recorder_->end(end_);
+  board_.timing().finish(end_);
 }
 
 std::uint32_t CycleMachine::read(std::uint32_t address, unsigned) {
   spend(spec_.host.word_ps);
-  if (address != kStatus) return device_.read(address);
+  if (address != kStatus) return board_.device().read(address);
   time_read_ = true;
-  return command_words_ > 0 || now_ps_ / spec_.tick_ps < timing_.idle_from() ? 1 : 0;
+  const std::uint32_t status = board_.busy(now_ps_) ? 1 : 0;
+  if (recorder_) recorder_->status(now_ps_ / spec_.tick_ps, status);
+  return status;
 }
 
 void CycleMachine::write(std::uint32_t address, std::uint32_t value, unsigned) {
   spend(spec_.host.word_ps);
-  if (address == kFifo) {
-    now_ps_ = timing_.offer_word(now_ps_);
-    ++command_words_;
-  } else if (address < kControlStoreEnd) {
-    check_not_in_use(address);
+  const std::int64_t offered_ps = now_ps_;
+  if (recorder_) recorder_->before(offered_ps / spec_.tick_ps);
+  if (address != kFifo) {
+    board_.write(offered_ps, address, value);
+    if (recorder_) recorder_->write(offered_ps / spec_.tick_ps, address, value);
+    return;
   }
-  const auto done = device_.write(address, value);
-  if (!done) return;
-  const igc::Header& header = done->command.header;
-  const CommandTimes times = timing_.command(command_words_, header.expression && !header.register_write, done->words);
-  command_words_ = 0;
-  book(phase_of(header), times);
-  if (done->program_words > 0) in_use_.push_back({header.entry, done->program_words, times.free});
+  const CycleBoard::Offered offered = board_.offer(offered_ps, value);
+  now_ps_ = offered.host_ps;
+  if (recorder_) recorder_->word(offered_ps / spec_.tick_ps, value, now_ps_ / spec_.tick_ps);
+  if (!offered.done) return;
+  if (recorder_) recorder_->command(*offered.done, offered.times);
+  const CommandTimes& times = offered.times;
+  book(phase_of(offered.done->command.header), times);
   if (options_.progress) options_.progress(times.free);
   if (options_.tick_limit > 0 && times.free > options_.tick_limit)
     throw UserError(fmt::format("the machine has run for {} clocks: the limit is reached", options_.tick_limit));
-}
-
-// A command is carried out when its last word is offered, with the program as it is then.
-void CycleMachine::check_not_in_use(std::uint32_t address) {
-  const std::int64_t now = now_ps_ / spec_.tick_ps;
-  const unsigned word = address / 2;
-  // What is written in a clock is seen from the next.
-  while (!in_use_.empty() && in_use_.front().free <= now + 1) in_use_.pop_front();
-  for (const InUse& use : in_use_)
-    if ((word - use.entry) % igc::kStoreWords < use.words)
-      throw UserError(fmt::format("word {} of the control store is written while a command that runs it is not done: what comes "
-                                  "out shows at level clocked only",
-                                  word));
 }
 
 void CycleMachine::dma_to(std::uint32_t address, const std::uint32_t* words, std::size_t count, unsigned function,
@@ -71,8 +64,9 @@ void CycleMachine::dma_from(std::uint32_t address, std::uint32_t* words, std::si
 }
 
 void CycleMachine::wait_interrupt() {
-  if (device_.lacks_words()) throw Device::never_idle();
-  now_ps_ = std::max(now_ps_, timing_.idle_from() * spec_.tick_ps);
+  if (board_.lacks_words()) throw Device::never_idle();
+  if (recorder_) recorder_->wait(now_ps_ / spec_.tick_ps);
+  now_ps_ = std::max(now_ps_, board_.timing().idle_from() * spec_.tick_ps);
   spend(spec_.host.interrupt_ps);
 }
 
@@ -101,7 +95,7 @@ void CycleMachine::book(const std::string& name, const CommandTimes& times) {
 }
 
 std::int64_t CycleMachine::machine_cycles() const {
-  return end_ - static_cast<std::int64_t>(timing_.controller().idle);
+  return end_ - static_cast<std::int64_t>(board_.timing().controller().idle);
 }
 
 std::vector<Phase> CycleMachine::phases() const {
@@ -135,9 +129,9 @@ std::vector<Phase> CycleMachine::phases() const {
 
 std::vector<UnitStats> CycleMachine::units() const {
   const auto total = static_cast<std::uint64_t>(end_);
-  const ControllerCounters& c = timing_.controller();
-  const FifoCounters& f = timing_.fifo();
-  const WordCounters& w = device_.engine().counters();
+  const ControllerCounters& c = board_.timing().controller();
+  const FifoCounters& f = board_.timing().fifo();
+  const WordCounters& w = board_.device().engine().counters();
   const std::uint64_t host_busy = std::min(total, static_cast<std::uint64_t>(busy_ps_ / spec_.tick_ps));
   return {{"pixel_planes.controller",
            {{"cycles", total}, {"busy", c.busy}, {"stall_refresh", c.stall_refresh}, {"stall_video", c.stall_video},

@@ -1,11 +1,12 @@
 #pragma once
 
+#include <memory>
 #include <string>
 #include <vector>
 
 #include "models/machines/machine.h"
-#include "models/machines/pixel_planes/device.h"
-#include "models/machines/pixel_planes/timing.h"
+#include "models/machines/pixel_planes/cycle_board.h"
+#include "models/machines/pixel_planes/recorder.h"
 
 namespace dendro::pixel_planes {
 
@@ -19,7 +20,7 @@ class CycleMachine : public Machine, private HostPort {
   double clock_hz() const override { return 1e12 / static_cast<double>(spec_.tick_ps); }
   std::int64_t cycles() const override { return end_; }
   std::int64_t machine_cycles() const override;
-  std::uint64_t instructions() const override { return timing_.controller().busy; }
+  std::uint64_t instructions() const override { return board_.timing().controller().busy; }
   std::vector<Phase> phases() const override;
   std::vector<UnitStats> units() const override;
   std::vector<MarkEvent> marks() const override { return {}; }
@@ -27,20 +28,14 @@ class CycleMachine : public Machine, private HostPort {
     return {"pixel_planes.controller", "pixel_planes.array", "pixel_planes.host"};
   }
   bool time_dependent() const override { return time_read_; }
-  Picture picture() const override { return device_.picture(); }
-  std::uint32_t peek(std::uint32_t address, unsigned function) const override { return device_.peek(address, function); }
+  Picture picture() const override { return board_.device().picture(); }
+  std::uint32_t peek(std::uint32_t address, unsigned function) const override { return board_.device().peek(address, function); }
 
  private:
   /// A named stretch of the host's program, or of the controller's.
   struct Stretch {
     std::string name;
     std::int64_t from = 0, to = 0;  ///< clocks; a host's stretch ends where the next begins
-  };
-
-  /// Words of the control store that a command runs, [entry, entry + words), until clock `free`.
-  struct InUse {
-    unsigned entry = 0, words = 0;
-    std::int64_t free = 0;
   };
 
   std::uint32_t read(std::uint32_t address, unsigned function) override;
@@ -59,16 +54,13 @@ class CycleMachine : public Machine, private HostPort {
   void spend(std::int64_t ps) { now_ps_ += ps, busy_ps_ += ps; }
   std::string phase_of(const igc::Header& header) const;
   void book(const std::string& name, const CommandTimes& times);
-  void check_not_in_use(std::uint32_t address);
 
   Spec spec_;
   MachineOptions options_;
-  mutable Device device_;  // reading brings waiting tiles up to date
-  Timing timing_;
+  mutable CycleBoard board_;  // reading brings waiting tiles up to date
+  std::unique_ptr<Recorder> recorder_;
   std::int64_t now_ps_ = 0, busy_ps_ = 0;
-  unsigned command_words_ = 0;  ///< offered of the command that is not whole yet
   std::vector<Stretch> host_, machine_;
-  std::deque<InUse> in_use_;  ///< by commands offered, in order; those that have ended are dropped now and then
   std::int64_t end_ = 0;
   bool time_read_ = false;
 };

@@ -75,6 +75,12 @@ Device::Done Device::carry_out(const igc::Command& command) {
   return {command, words, static_cast<unsigned>(found->second.words().size())};
 }
 
+std::vector<igc::ArrayWord> Device::words_of(const igc::Command& command) const {
+  if (command.header.register_write) return {igc::ArrayWord{}};
+  return igc::expand(programs_.at(command.header.entry).words(), command, controller_,
+                     static_cast<unsigned>(spec_.tree.gap_clocks));
+}
+
 Picture Device::picture() {
   Picture picture;
   picture.width = video_.width > 0 ? std::min(video_.width, spec_.array.width) : spec_.array.width;

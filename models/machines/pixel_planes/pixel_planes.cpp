@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "models/machines/pixel_planes/boundaries.h"
 #include "models/machines/pixel_planes/clocked.h"
 #include "models/machines/pixel_planes/cycle.h"
 #include "models/machines/pixel_planes/device.h"
@@ -99,6 +100,10 @@ MachineType pixel_planes_type() {
   type.folder = "models/machines/pixel_planes";
   type.make = make;
   type.check = check;
+  type.boundaries = boundaries();
+  type.replay = [](const config::ParameterSet& parameters, Level level, trace::Reader& trace) {
+    return replay(resolve(parameters), level, trace);
+  };
   return type;
 }
 
