@@ -2,6 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <functional>
+#include <map>
+
 #include "models/machines/pixel_planes/bit_array.h"
 #include "models/machines/pixel_planes/word_engine.h"
 #include "tests/support/pixel_planes_rig.h"
@@ -198,23 +201,51 @@ TEST(WordEngine, AProgramOfItsOwnKindRunsOnTheBitsBetweenTheOthers) {
   expect_same_memory(wanted, engine.bits());
 }
 
-TEST(WordEngine, IndexedColoursEqualTheBits) {
-  std::mt19937_64 random(13);
-  const Case one(small_spec(), {12, false});
-  std::vector<Step> steps = random_stream(random, one.programs, one.layout, 64, 5);
+/// The stream with front planes that leave their numbers. Of hulls that `keeps` chooses the numbers are not cleared.
+void leave_numbers(std::vector<Step>& steps, const Programs& programs, const std::function<bool()>& keeps) {
+  const std::map<std::string, std::string> others{
+      {"clear_hull", "clear_hull_index"}, {"front_plane", "front_plane_index"}, {"recolour", "recolour_index"}};
   std::uint64_t number = 0;
   for (Step& s : steps) {
-    const char* other = s.program == "front_plane" ? "front_plane_index" : s.program == "recolour" ? "recolour_index" : nullptr;
-    if (other == nullptr) continue;
-    s.program = other, s.command.header.entry = one.programs.entry(other);
-    s.command.constant = s.program == "recolour_index" ? s.command.constant << 12 | number++ % 7 : number++ % 7;
+    const auto other = others.find(s.program);
+    if (other == others.end() || (s.program == "clear_hull" && keeps())) continue;
+    s.program = other->second, s.command.header.entry = programs.entry(s.program);
+    const std::uint64_t low = number++ % 7;
+    s.command.constant = s.program == "recolour_index" ? s.command.constant << 12 | low : low;
   }
-  const ArrayState wanted = one.run_bits(steps);
-  for (const bool lazy : {false, true}) {
-    WordEngine engine = one.run(steps, lazy);
-    EXPECT_EQ(engine.counters().bitwise_commands, 0u);
-    expect_same_memory(wanted, engine.bits());
+}
+
+TEST(WordEngine, IndexedColoursEqualTheBits) {
+  for (std::uint64_t seed = 13; seed < 25; ++seed) {
+    SCOPED_TRACE(fmt::format("seed {}", seed));
+    std::mt19937_64 random(seed);
+    const Case one(small_spec(), {12, false});
+    std::vector<Step> steps = random_stream(random, one.programs, one.layout, 64, 5);
+    leave_numbers(steps, one.programs, [&] { return random() % 3 == 0; });
+    const ArrayState wanted = one.run_bits(steps);
+    for (const bool lazy : {false, true}) {
+      WordEngine engine = one.run(steps, lazy);
+      EXPECT_EQ(engine.counters().bitwise_commands, 0u);
+      expect_same_memory(wanted, engine.bits());
+    }
   }
+}
+
+TEST(WordEngine, AnIndexedHullThatClearsItsNumbersLeavesTilesAlone) {
+  std::uint64_t evaluated[2] = {0, 0}, all = 0;
+  for (const bool keeps : {false, true}) {
+    std::mt19937_64 random(41);
+    const Case one(small_spec(256), {12, false});
+    std::vector<Step> steps = random_stream(random, one.programs, one.layout, 256, 40);
+    leave_numbers(steps, one.programs, [&] { return keeps; });
+    steps.push_back(step(one.programs, "clear_hull"));
+    WordEngine lazy = one.run(steps, true), full = one.run(steps, false);
+    lazy.peek(0, 0);  // everything before is applied or waits
+    evaluated[keeps] = lazy.counters().evaluated, all = full.counters().pixel_operations;
+    expect_same_memory(full.bits(), lazy.bits());
+  }
+  EXPECT_LT(evaluated[false], all / 2);
+  EXPECT_LT(evaluated[false], evaluated[true]);
 }
 
 }  // namespace
