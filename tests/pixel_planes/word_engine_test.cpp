@@ -201,6 +201,36 @@ TEST(WordEngine, AProgramOfItsOwnKindRunsOnTheBitsBetweenTheOthers) {
   expect_same_memory(wanted, engine.bits());
 }
 
+TEST(Texels, ATexelColoursThePixelsThatShowItAndNoOthers) {
+  std::mt19937_64 random(17);
+  const Spec spec = small_spec();
+  const tools::IgcImage image = tools::assemble_igc(shipped_source("texels.igc"), "texels.igc", {1, 128, {}});
+  igc::ControllerState controller;
+  std::copy(image.words.begin(), image.words.end(), controller.store.begin());
+  controller.registers[image.registers.at("coordinates")] = 3, controller.registers[image.registers.at("colour")] = 40;
+  ArrayState state(spec);
+  for (Plane& plane : state.memory)
+    for (std::uint64_t& word : plane) word = random();
+  const Case fields(spec, {});
+  std::vector<std::uint32_t> wanted;
+  for (int p = 0; p < 64 * 64; ++p) wanted.push_back(fields.field(state, p, 40, 24));
+  for (int n = 0; n < 40; ++n) {
+    igc::Command command;
+    // Every other texel is one that some pixel shows.
+    const auto any = static_cast<int>(random() % (64 * 64));
+    const std::uint32_t texel = n % 2 == 0 ? fields.field(state, any, 3, 15) : random() & 0x7FFF;
+    const std::uint32_t colour = random() & 0xFFFFFF;
+    command.constant = texel | static_cast<std::uint64_t>(colour) << 15;
+    const auto words = igc::expand(igc::program_at(controller, 0), command, controller, 0);
+    EXPECT_EQ(words.size(), 42u);
+    apply_words(spec, command, words, state);
+    for (int p = 0; p < 64 * 64; ++p)
+      if (fields.field(state, p, 3, 15) == texel) wanted[static_cast<std::size_t>(p)] = colour;
+    for (int p = 0; p < 64 * 64; ++p)
+      ASSERT_EQ(fields.field(state, p, 40, 24), wanted[static_cast<std::size_t>(p)]) << "texel " << n << ", pixel " << p;
+  }
+}
+
 /// The stream with front planes that leave their numbers. Of hulls that `keeps` chooses the numbers are not cleared.
 void leave_numbers(std::vector<Step>& steps, const Programs& programs, const std::function<bool()>& keeps) {
   const std::map<std::string, std::string> others{
