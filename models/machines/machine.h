@@ -72,6 +72,8 @@ struct MachineOptions {
   std::string vcd_file;         ///< clocked only; empty: none
   std::int64_t vcd_from = 0, vcd_to = INT64_MAX;  ///< window in ticks
   std::vector<std::string> vcd_units;             ///< empty: all
+  std::string pipeline_file;    ///< `clocked` of a machine with a pipeline: Kanata log; empty: none
+  std::int64_t pipeline_from = 0, pipeline_to = INT64_MAX;  ///< window in clocks
   std::map<std::uint32_t, std::string> symbols;   ///< labels by word index, for messages only
   bool cost = false;                              ///< cycle only: keep account of ticks by pixel
   std::size_t activity = 0;                       ///< most samples of activity(), an even number; 0: none are taken
@@ -134,6 +136,7 @@ struct ProgramResult {
   bool stopped = false;  ///< by a service; otherwise the limit was reached
   std::uint32_t pc = 0, return_address = 0;
   std::uint64_t instructions = 0;
+  std::int64_t cycles = 0;  ///< 0 at `function`
   double clock_hz = 0;
   std::vector<UnitStats> units;
 };
@@ -149,9 +152,10 @@ struct MachineType {
   std::function<std::unique_ptr<Machine>(const config::ParameterSet&, Level, const MachineOptions&)> make;
   /// Throws the UserError that make() would, and builds nothing. Empty: what make() refuses does not depend on the level.
   std::function<void(const config::ParameterSet&, Level)> check;
-  /// A machine whose programs are ELF files: runs one without a host program, at most `limit` words. Empty elsewhere.
+  /// A machine whose programs are ELF files: runs one without a host program, at most `limit` words, with waveform,
+  /// pipeline log and progress as the options say. At `clocked` this elaborates SystemC. Empty elsewhere.
   std::function<ProgramResult(const config::ParameterSet&, Level, const ProgramImage&, service_block::Services&,
-                              std::uint64_t limit)> exec;
+                              std::uint64_t limit, const MachineOptions&)> exec;
   std::vector<trace::Boundary> boundaries;  ///< where its units can be recorded and replayed
   /// Drives one unit alone with a trace, whose boundary is among those above. Levels are cycle and clocked. Throws
   /// UserError for a trace that is wrong in itself. May elaborate SystemC.

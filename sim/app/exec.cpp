@@ -36,6 +36,25 @@ std::uint32_t number(const std::string& text, const std::string& whole) {
   return static_cast<std::uint32_t>(value);
 }
 
+/// Of a program whose own output is standard output.
+void print_summary(const stats::RunObject& run, int exit_code) {
+  const double millions = 1e-6 / std::max(run.host.seconds, 1e-9);
+  const std::string instructions = stats::grouped(static_cast<std::int64_t>(run.instructions));
+  const std::string place = fmt::format("{}:{} level {}", run.machine, run.preset, run.level);
+  const std::string took = stats::readable_seconds(run.host.seconds);
+  if (run.has_time())
+    fmt::print(
+        stderr,
+        "{}: {} instructions, {} cycles = {}, {:.3f} cycles an instruction; in {}, {:.2f} million "
+        "cycles/s, exit code {}\n",
+        place, instructions, stats::grouped(run.cycles), stats::readable_seconds(run.seconds),
+        static_cast<double>(run.cycles) / static_cast<double>(std::max<std::uint64_t>(run.instructions, 1)),
+        took, static_cast<double>(run.cycles) * millions, exit_code);
+  else
+    fmt::print(stderr, "{}: {} instructions in {}, {:.0f} million/s, no time at this level, exit code {}\n",
+               place, instructions, took, static_cast<double>(run.instructions) * millions, exit_code);
+}
+
 int execute(const study::Catalogue& catalogue, Options options) {
   for (const std::string& dump : options.dumps) {
     const auto colon = dump.find(':');
@@ -45,24 +64,21 @@ int execute(const study::Catalogue& catalogue, Options options) {
       throw UserError("--dump", 0, "", "`" + dump + "` asks for 0 words; at least 1");
   }
   check_window(options.exec.options);
-  study::OutputFile json(options.json), waveform(options.exec.options.vcd_file);
+  study::OutputFile json(options.json), waveform(options.exec.options.vcd_file),
+      log(options.exec.options.pipeline_file);
   options.exec.options.vcd_file = waveform.work();
+  options.exec.options.pipeline_file = log.work();
   study::Progress progress(options.progress);
   const study::ExecOutput output = study::exec_program(catalogue, options.exec, &progress);
   progress.clear();
   waveform.commit();
+  log.commit();
   for (std::size_t i = 0; i < output.dumps.size(); ++i)
     for (std::size_t n = 0; n < output.dumps[i].size(); ++n)
       fmt::print("scratch[{}] = 0x{:08x}\n", options.exec.dumps[i].first + n, output.dumps[i][n]);
   const stats::RunObject& run = output.object;
   if (output.prints_output) {  // standard output is the program's
-    if (!options.quiet)
-      fmt::print(
-          stderr,
-          "{}:{} level {}: {} instructions in {}, {:.0f} million/s, no time at this level, exit code {}\n",
-          run.machine, run.preset, run.level, stats::grouped(static_cast<std::int64_t>(run.instructions)),
-          stats::readable_seconds(run.host.seconds),
-          static_cast<double>(run.instructions) / 1e6 / std::max(run.host.seconds, 1e-9), output.exit_code);
+    if (!options.quiet) print_summary(run, output.exit_code);
     json.commit(study::exec_json(output));
     return output.exit_code;
   }
@@ -99,6 +115,7 @@ void add_exec(CLI::App& app, const study::Catalogue& catalogue, Action& action) 
       ->check(CLI::IsMember({"auto", "on", "off"}));
   command->add_flag("--quiet", o->quiet, "print no summary");
   add_waveform(*command, machine);
+  add_pipeline_log(*command, machine);
   command->callback(
       [&catalogue, &action, o] { action = [&catalogue, o] { return execute(catalogue, *o); }; });
 }

@@ -126,8 +126,10 @@ ExecOutput exec_elf(const Catalogue& catalogue, const ExecArguments& arguments) 
   const Level level = exec_level(arguments, type);
   if (!arguments.dumps.empty())
     throw UserError("--dump", 0, "", type.name + " has no scratchpad; let the program print");
-  if (!arguments.options.vcd_file.empty())
+  if (!arguments.options.vcd_file.empty() && level != Level::kClocked)
     throw UserError("--vcd", 0, "", "waveforms exist at --level clocked only");
+  if (!arguments.options.pipeline_file.empty() && level != Level::kClocked)
+    throw UserError("--pipeline", 0, "", "pipeline logs exist at --level clocked only");
   const ElfProgram program = read_elf(config::read_text({false, arguments.program}, {}), arguments.program);
   const std::int64_t bytes = integer_of(preset.parameters, "memory.main_bytes");
   if (bytes < kLeastMemory || bytes > kMostMemory)
@@ -138,8 +140,8 @@ ExecOutput exec_elf(const Catalogue& catalogue, const ExecArguments& arguments) 
   const auto limit = arguments.options.tick_limit == 0 ? kDefaultTickLimit : arguments.options.tick_limit;
   HostServices services;
   const auto start = std::chrono::steady_clock::now();
-  const ProgramResult result =
-      type.exec(preset.parameters, level, image, services, static_cast<std::uint64_t>(limit));
+  const ProgramResult result = type.exec(preset.parameters, level, image, services,
+                                         static_cast<std::uint64_t>(limit), arguments.options);
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   if (services.fault) throw UserError(arguments.program, 0, "", fault_text(*services.fault, program));
   if (!result.stopped)
@@ -155,6 +157,10 @@ ExecOutput exec_elf(const Catalogue& catalogue, const ExecArguments& arguments) 
   object.preset = preset.name;
   object.level = level_name(level);
   object.clock_hz = result.clock_hz;
+  object.cycles = object.machine_cycles = result.cycles;
+  object.seconds = static_cast<double>(result.cycles) / result.clock_hz;
+  if (object.has_time()) object.phases.push_back({"program", result.cycles, object.seconds, false});
+  object.elaborated = {type.name};
   object.instructions = result.instructions;
   for (const UnitStats& unit : result.units) object.units.push_back({unit.unit, unit.values});
   object.host.seconds = seconds;

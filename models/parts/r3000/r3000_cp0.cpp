@@ -59,6 +59,12 @@ bool translate(State& s, std::uint32_t address, Access access, std::uint32_t& ph
   return true;
 }
 
+bool uncached(const State& s, std::uint32_t address) {
+  if (address >= kKseg0 && address < kKseg2) return address >= kKseg1;
+  const TlbEntry* entry = find(s, address);
+  return entry != nullptr && (entry->lo & kLoUncached);
+}
+
 void enter_exception(State& s, const Fault& fault) {
   if (s.pending_reg != 0) {
     s.r[s.pending_reg] = s.pending_value;
