@@ -65,7 +65,7 @@ void CycleMachine::offer(std::size_t renderer, std::uint32_t word) {
   if (recorder_) recorder_->word(offered_ps / spec_.tick_ps, word, now_ps_ / spec_.tick_ps);
   if (!offered.done) return;
   if (recorder_) recorder_->command(*offered.done, offered.times);
-  group_.done(renderer, offered.done->command);
+  group_.done(renderer, offered.done->command, offered.times.free);
   const CommandTimes& times = offered.times;
   book(renderer, phase_of(offered.done->command.header), times);
   if (options_.progress) options_.progress(times.free);

@@ -8,9 +8,13 @@ FrameStore::FrameStore(const Spec& spec)
       rows_(spec.frame.height / spec.array.height),
       tiles_(static_cast<std::size_t>(columns_ * rows_)) {}
 
-void FrameStore::copy(unsigned column, unsigned row, const std::vector<Plane>& memory) {
-  if (column < static_cast<unsigned>(columns_) && row < static_cast<unsigned>(rows_))
-    tiles_[row * static_cast<unsigned>(columns_) + column] = memory;
+void FrameStore::copy(unsigned column, unsigned row, const std::vector<Plane>& memory, std::int64_t clock, std::size_t renderer) {
+  if (column >= static_cast<unsigned>(columns_) || row >= static_cast<unsigned>(rows_)) return;
+  Tile& tile = tiles_[row * static_cast<unsigned>(columns_) + column];
+  const std::pair when(clock, renderer);
+  if (!tile.memory.empty() && when < tile.when) return;
+  tile.memory = memory;
+  tile.when = when;
 }
 
 std::uint32_t FrameStore::peek(std::uint32_t pixel, unsigned low) const {
@@ -18,7 +22,7 @@ std::uint32_t FrameStore::peek(std::uint32_t pixel, unsigned low) const {
   if (width == 0 || pixel / width >= static_cast<std::uint32_t>(spec_.frame.height)) return 0;
   const auto tile_width = static_cast<std::uint32_t>(spec_.array.width), tile_height = static_cast<std::uint32_t>(spec_.array.height);
   const std::uint32_t x = pixel % width, y = pixel / width;
-  const std::vector<Plane>& tile = tiles_[y / tile_height * static_cast<std::uint32_t>(columns_) + x / tile_width];
+  const std::vector<Plane>& tile = tiles_[y / tile_height * static_cast<std::uint32_t>(columns_) + x / tile_width].memory;
   const std::uint32_t inside = y % tile_height * tile_width + x % tile_width;
   std::uint32_t word = 0;
   for (unsigned bit = low; bit < low + 32 && bit < tile.size(); ++bit)

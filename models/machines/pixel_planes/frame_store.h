@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 #include "models/machines/machine.h"
@@ -15,8 +16,9 @@ class FrameStore {
  public:
   explicit FrameStore(const Spec& spec);
 
-  /// Keeps an array's memory as tile (column, row); a tile outside the frame is lost.
-  void copy(unsigned column, unsigned row, const std::vector<Plane>& memory);
+  /// Keeps an array's memory as tile (column, row), unless a copy of a later `clock`, or in the same of a higher renderer, is there
+  /// already; a tile outside the frame is lost.
+  void copy(unsigned column, unsigned row, const std::vector<Plane>& memory, std::int64_t clock, std::size_t renderer);
 
   /// Bits low to low + 31 of pixel y * frame width + x; 0 beyond the memory and outside the frame.
   std::uint32_t peek(std::uint32_t pixel, unsigned low) const;
@@ -24,7 +26,11 @@ class FrameStore {
  private:
   Spec spec_;
   int columns_, rows_;
-  std::vector<std::vector<Plane>> tiles_;  ///< empty: not copied yet
+  struct Tile {
+    std::vector<Plane> memory;  ///< empty: not copied yet
+    std::pair<std::int64_t, std::size_t> when;
+  };
+  std::vector<Tile> tiles_;
 };
 
 /// What the monitor shows: 24 bits of every pixel from video.base up. `bits(x, y)` gives them.

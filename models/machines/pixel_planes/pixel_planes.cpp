@@ -25,7 +25,7 @@ class FunctionPort : public HostPort {
     for (std::size_t r = to.first(group_.count()); r < to.end(group_.count()); ++r)
       if (const auto done = devices_[r].write(address, value)) {
         words_ += done->words;
-        group_.done(r, done->command);
+        group_.done(r, done->command, ++commands_);
       }
   }
   void dma_to(std::uint32_t address, const std::uint32_t* words, std::size_t count, unsigned function,
@@ -51,6 +51,7 @@ class FunctionPort : public HostPort {
  private:
   std::deque<Device> devices_;  // they change when something is read: waiting tiles are brought up to date
   RendererGroup group_;
+  std::int64_t commands_ = 0;
   std::uint64_t words_ = 0;
 };
 

@@ -23,9 +23,9 @@ std::uint32_t RendererGroup::read(std::uint32_t address) const {
   return address == kSelect ? selection_.number : device_(selection_.first(count_)).read(address);
 }
 
-void RendererGroup::done(std::size_t r, const igc::Command& command) {
+void RendererGroup::done(std::size_t r, const igc::Command& command, std::int64_t clock) {
   if (command.header.copy && spec_.frame.exists())
-    frame_.copy(command.tile_x, command.tile_y, device_(r).engine().bits().memory);
+    frame_.copy(command.tile_x, command.tile_y, device_(r).engine().bits().memory, clock, r);
 }
 
 Picture RendererGroup::picture() const {

@@ -23,8 +23,8 @@ class RendererGroup {
   bool write(std::uint32_t address, std::uint32_t value);
   std::uint32_t read(std::uint32_t address) const;
 
-  /// A command was carried out by renderer r: a copy goes to the frame store.
-  void done(std::size_t r, const igc::Command& command);
+  /// Renderer r has carried out a command, whose last word goes out before `clock`: a copy goes to the frame store.
+  void done(std::size_t r, const igc::Command& command, std::int64_t clock);
 
   Picture picture() const;
   std::uint32_t peek(std::uint32_t address, unsigned low) const;
