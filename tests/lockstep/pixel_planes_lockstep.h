@@ -37,7 +37,7 @@ void expect_errors(const Scenario& scenario, const std::string& cycle_says, cons
 Spec random_spec(std::mt19937_64& random);
 
 /// Micro-programs of random words that set E, C and D before they use them, loaded and run with random
-/// commands.
-Scenario random_programs(std::uint64_t seed);
+/// commands; with `renderers` on one to four of them, with a frame into which tiles are copied.
+Scenario random_programs(std::uint64_t seed, bool renderers = false);
 
 }  // namespace dendro::pixel_planes

@@ -37,26 +37,28 @@ ClockedVcd::ClockedVcd(ClockedEngine& engine, const MachineOptions& options)
 }
 
 void ClockedVcd::before(std::int64_t n) {
+  ClockedRenderer& renderer = engine_.renderers_.front();
   writer_.at(n * tick_ps_);
-  writer_.set(fifo_words_, engine_.fifo_before_);
-  writer_.set(host_waits_room_, engine_.host_waits_for_room_);
+  writer_.set(fifo_words_, renderer.fifo_before());
+  writer_.set(host_waits_room_, engine_.host_waits_for_room_ == &renderer);
   writer_.set(host_waits_idle_, engine_.host_waits_for_idle_);
-  writer_.set(idle_, engine_.idle_before_);
-  writer_.set(state_, engine_.translator_.state_number());
-  writer_.set(header_, igc::pack(engine_.translator_.command().header));
-  writer_.set(running_, engine_.controller_.running());
-  writer_.set(address_, engine_.controller_.address());
-  writer_.set(turn_, engine_.controller_.turn());
-  writer_.set(enabled_, engine_.array_.planes().enabled());
+  writer_.set(idle_, renderer.was_idle());
+  writer_.set(state_, renderer.translator().state_number());
+  writer_.set(header_, igc::pack(renderer.translator().command().header));
+  writer_.set(running_, renderer.controller().running());
+  writer_.set(address_, renderer.controller().address());
+  writer_.set(turn_, renderer.controller().turn());
+  writer_.set(enabled_, renderer.array().planes().enabled());
 }
 
 void ClockedVcd::after(ClockedCause cause) {
+  ClockedArraySide& array = engine_.renderers_.front().array();
   writer_.set(cause_, static_cast<std::uint64_t>(cause));
-  writer_.set(a_, engine_.array_.lines().a);
-  writer_.set(b_, engine_.array_.lines().b);
-  writer_.set(c_, engine_.array_.lines().c);
-  writer_.set(clear_, engine_.array_.lines().clear);
-  const igc::ArrayWord& w = engine_.array_.obeyed();
+  writer_.set(a_, array.lines().a);
+  writer_.set(b_, array.lines().b);
+  writer_.set(c_, array.lines().c);
+  writer_.set(clear_, array.lines().clear);
+  const igc::ArrayWord& w = array.obeyed();
   writer_.set(function_, static_cast<std::uint64_t>(w.function));
   writer_.set(x_, static_cast<std::uint64_t>(w.x));
   writer_.set(y_, static_cast<std::uint64_t>(w.y));

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <deque>
 #include <memory>
 #include <string>
 #include <vector>
@@ -7,6 +8,7 @@
 #include "models/machines/machine.h"
 #include "models/machines/pixel_planes/cycle_board.h"
 #include "models/machines/pixel_planes/recorder.h"
+#include "models/machines/pixel_planes/renderers.h"
 
 namespace dendro::pixel_planes {
 
@@ -20,16 +22,14 @@ class CycleMachine : public Machine, private HostPort {
   double clock_hz() const override { return 1e12 / static_cast<double>(spec_.tick_ps); }
   std::int64_t cycles() const override { return end_; }
   std::int64_t machine_cycles() const override;
-  std::uint64_t instructions() const override { return board_.timing().controller().busy; }
+  std::uint64_t instructions() const override;
   std::vector<Phase> phases() const override;
   std::vector<UnitStats> units() const override;
   std::vector<MarkEvent> marks() const override { return {}; }
-  std::vector<std::string> elaborated() const override {
-    return {"pixel_planes.controller", "pixel_planes.array", "pixel_planes.host"};
-  }
+  std::vector<std::string> elaborated() const override;
   bool time_dependent() const override { return time_read_; }
-  Picture picture() const override { return board_.device().picture(); }
-  std::uint32_t peek(std::uint32_t address, unsigned function) const override { return board_.device().peek(address, function); }
+  Picture picture() const override { return group_.picture(); }
+  std::uint32_t peek(std::uint32_t address, unsigned function) const override { return group_.peek(address, function); }
 
  private:
   /// A named stretch of the host's program, or of the controller's.
@@ -53,14 +53,20 @@ class CycleMachine : public Machine, private HostPort {
   std::int64_t clock_at(std::int64_t ps) const { return (ps + spec_.tick_ps - 1) / spec_.tick_ps; }
   void spend(std::int64_t ps) { now_ps_ += ps, busy_ps_ += ps; }
   std::string phase_of(const igc::Header& header) const;
-  void book(const std::string& name, const CommandTimes& times);
+  void offer(std::size_t renderer, std::uint32_t word);
+  void book(std::size_t renderer, const std::string& name, const CommandTimes& times);
+  std::vector<Stretch> machine_stretches() const;
+  std::int64_t idle_from() const;
+  bool lacks_words() const;
 
   Spec spec_;
   MachineOptions options_;
-  mutable CycleBoard board_;  // reading brings waiting tiles up to date
+  mutable std::deque<CycleBoard> boards_;  // one a renderer; reading brings waiting tiles up to date
+  RendererGroup group_;
   std::unique_ptr<Recorder> recorder_;
   std::int64_t now_ps_ = 0, busy_ps_ = 0;
-  std::vector<Stretch> host_, machine_;
+  std::vector<Stretch> host_;
+  std::vector<std::vector<Stretch>> machine_;  ///< by renderer
   std::int64_t end_ = 0;
   bool time_read_ = false;
 };

@@ -52,6 +52,7 @@ class Device {
     return pixel < static_cast<std::uint32_t>(spec_.pixels()) ? engine_.peek(static_cast<int>(pixel), low) : 0;
   }
   WordEngine& engine() { return engine_; }
+  const VideoState& video() const { return video_; }
   const igc::ControllerState& controller() const { return controller_; }
 
   /// What the array is sent for a command that has just been carried out.

@@ -48,7 +48,7 @@ class CycleUnit : public CommandUnit {
 class ClockedUnit : public CommandUnit {
  public:
   explicit ClockedUnit(const Spec& spec)
-      : spec_(spec), translator_(spec.setup_clocks), controller_(spec.tree.gap_clocks), array_(spec), thieves_(spec) {}
+      : spec_(spec), translator_(spec.setup_clocks), controller_(spec.tree.gap_clocks, spec.copy_words()), array_(spec), thieves_(spec) {}
 
   void begin(std::int64_t clock, const igc::ControllerState& controller, const std::vector<Plane>& memory) override {
     now_ = clock;
@@ -140,7 +140,7 @@ class ClockedUnit : public CommandUnit {
     const auto refuse = [&](const char* what) {
       throw UserError("the micro-program at word " + std::to_string(header.entry) + what);
     };
-    if (!header.register_write && !controller_.has_end(header.entry)) refuse(" of the control store has no end");
+    if (!header.register_write && !header.copy && !controller_.has_end(header.entry)) refuse(" of the control store has no end");
     if (!controller_.take(translator_.command())) refuse(" sends nothing");
     translator_.taken();
     taken_ = now_;
