@@ -127,7 +127,6 @@ class CommandReplay : public trace::ReplayedUnit {
     for (const auto& [key, number] : record.keys)
       if (key.size() == 1 && !number.single && !number.hex)
         replayer_.fail(record, fmt::format("{}: a coefficient has a point, as 1.0, or is its 32 bits in hexadecimal", key));
-    if (record.has("high") && !record.has("constant")) replayer_.fail(record, "`high` without `constant`");
   }
 
   // The words of a command, or one that stands for itself.
