@@ -53,18 +53,11 @@ enum zbv_options {
 };
 
 /* Labels of marks (0x7002): the phase that begins. */
-#define ZBV_PHASES(phase)       \
-  phase(kZbvRead, 1, "read")    \
-  phase(kZbvDirections, 2, "directions") \
-  phase(kZbvNormals, 3, "normals")       \
-  phase(kZbvProject, 4, "project")       \
-  phase(kZbvScan, 5, "scan")             \
-  phase(kZbvChoose, 6, "choose")         \
-  phase(kZbvCamera, 7, "reproject_camera") \
-  phase(kZbvLight, 8, "reproject_light") \
-  phase(kZbvShade, 9, "shade")  \
-  phase(kZbvWrite, 10, "write") \
-  phase(kZbvClear, 11, "clear")
+#define ZBV_PHASES(phase)                                                                            \
+  phase(kZbvRead, 1, "read") phase(kZbvDirections, 2, "directions") phase(kZbvNormals, 3, "normals") \
+      phase(kZbvProject, 4, "project") phase(kZbvScan, 5, "scan") phase(kZbvChoose, 6, "choose")     \
+          phase(kZbvCamera, 7, "reproject_camera") phase(kZbvLight, 8, "reproject_light")            \
+              phase(kZbvShade, 9, "shade") phase(kZbvWrite, 10, "write") phase(kZbvClear, 11, "clear")
 #define ZBV_PHASE_NUMBER(name, number, text) name = number,
 enum zbv_phase { ZBV_PHASES(ZBV_PHASE_NUMBER) };
 #undef ZBV_PHASE_NUMBER
