@@ -139,7 +139,7 @@ ExecOutput exec_elf(const Catalogue& catalogue, const ExecArguments& arguments) 
   HostServices services;
   const auto start = std::chrono::steady_clock::now();
   const ProgramResult result =
-      type.exec(preset.parameters, level, image, services, static_cast<std::uint64_t>(limit));
+      type.exec(preset.parameters, level, image, services, static_cast<std::uint64_t>(limit), arguments.options);
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   if (services.fault) throw UserError(arguments.program, 0, "", fault_text(*services.fault, program));
   if (!result.stopped)

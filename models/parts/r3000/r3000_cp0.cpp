@@ -59,11 +59,20 @@ bool translate(State& s, std::uint32_t address, Access access, std::uint32_t& ph
   return true;
 }
 
+bool uncached(const State& s, std::uint32_t address) {
+  if (address >= kKseg0 && address < kKseg2) return address >= kKseg1;
+  const TlbEntry* entry = find(s, address);
+  return entry != nullptr && (entry->lo & kLoUncached);
+}
+
+void finish_load(State& s) {
+  if (s.pending_reg == 0) return;
+  s.r[s.pending_reg] = s.pending_value;
+  s.pending_reg = 0;
+}
+
 void enter_exception(State& s, const Fault& fault) {
-  if (s.pending_reg != 0) {
-    s.r[s.pending_reg] = s.pending_value;
-    s.pending_reg = 0;
-  }
+  finish_load(s);
   s.epc = s.in_slot ? s.pc - 4 : s.pc;
   s.cause =
       (s.cause & kCauseSoftware) | fault.code << 2 | (s.in_slot ? kCauseBd : 0) | fault.coprocessor << 28;

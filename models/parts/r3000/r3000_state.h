@@ -60,6 +60,12 @@ enum class Access { kFetch, kLoad, kStore };
 /// The physical address of a virtual one, or false and what is wrong. Does not look at alignment.
 bool translate(State& s, std::uint32_t address, Access access, std::uint32_t& physical, Fault& fault);
 
+/// True for kseg1 and for a page whose TLB entry has N set.
+bool uncached(const State& s, std::uint32_t address);
+
+/// The register that the load under way writes gets its value now.
+void finish_load(State& s);
+
 /// Enters an exception at the word at s.pc / s.in_slot: EPC, Cause, mode stack, vector. A load under way
 /// completes first.
 void enter_exception(State& s, const Fault& fault);
