@@ -61,6 +61,11 @@ struct ActivitySample {
   std::vector<UnitStats> units;
 };
 
+/// How often a word left the pipeline, and the clocks from the word before it.
+struct WordClocks {
+  std::uint64_t times = 0, clocks = 0;
+};
+
 struct MachineOptions {
   /// Words to log, by word index (page x 4096 + address): symbols of the program that begin with mark_ or phase_.
   std::map<std::uint32_t, std::string> marks;
@@ -79,6 +84,7 @@ struct MachineOptions {
   std::size_t activity = 0;                       ///< most samples of activity(), an even number; 0: none are taken
   std::map<std::uint32_t, std::string> counted;   ///< `function` only: microwords whose executions are counted
   std::function<void(std::int64_t tick)> progress;  ///< called now and then with the simulated time; may be empty
+  std::map<std::uint32_t, WordClocks>* word_clocks = nullptr;  ///< `cycle` of a machine with `exec`: by address
   trace::Writer* recorder = nullptr;  ///< `cycle` only: gathers the records of one boundary
 
   /// A machine with one page of control store: the marks of this program from word `first` on take the place of all others.
@@ -132,12 +138,21 @@ struct ProgramImage {
   service_block::Program program;
 };
 
+/// A call of the program that marks a point of its run (service_block_isa.h): `cycles` and `instructions` of the run
+/// before the mark's store.
+struct ProgramMark {
+  std::uint32_t number = 0, label = 0;
+  std::uint64_t instructions = 0;
+  std::int64_t cycles = 0;
+};
+
 struct ProgramResult {
   bool stopped = false;  ///< by a service; otherwise the limit was reached
   std::uint32_t pc = 0, return_address = 0;
   std::uint64_t instructions = 0;
   std::int64_t cycles = 0;  ///< 0 at `function`
   double clock_hz = 0;
+  std::vector<ProgramMark> marks;  ///< in the order of their calls; empty at `function`
   std::vector<UnitStats> units;
 };
 

@@ -140,8 +140,8 @@ ExecOutput exec_elf(const Catalogue& catalogue, const ExecArguments& arguments) 
   const auto limit = arguments.options.tick_limit == 0 ? kDefaultTickLimit : arguments.options.tick_limit;
   HostServices services;
   const auto start = std::chrono::steady_clock::now();
-  const ProgramResult result = type.exec(preset.parameters, level, image, services,
-                                         static_cast<std::uint64_t>(limit), arguments.options);
+  const ProgramResult result =
+      type.exec(preset.parameters, level, image, services, static_cast<std::uint64_t>(limit), arguments.options);
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   if (services.fault) throw UserError(arguments.program, 0, "", fault_text(*services.fault, program));
   if (!result.stopped)

@@ -1,13 +1,11 @@
 #pragma once
 
-#include <algorithm>
 #include <cstring>
 #include <vector>
 
-#include "models/machines/machine.h"
+#include "models/machines/sgi_4d35/sgi_4d35.h"
 #include "models/parts/r3000/r3000_isa.h"
 #include "models/parts/service_block/service_block.h"
-#include "sim/base/check.h"
 
 namespace dendro::sgi_4d35 {
 
@@ -18,14 +16,7 @@ struct Board {
   const service_block::Program& program;
   service_block::State block;
 
-  Board(std::uint32_t main_bytes, const ProgramImage& image, service_block::Services& calls)
-      : memory(main_bytes), services(calls), program(image.program) {
-    for (const ProgramImage::Chunk& chunk : image.chunks) {
-      DENDRO_CHECK(chunk.physical <= memory.size() && chunk.bytes.size() <= memory.size() - chunk.physical,
-                   "0x{:x} + {} bytes", chunk.physical, chunk.bytes.size());
-      std::copy(chunk.bytes.begin(), chunk.bytes.end(), memory.begin() + chunk.physical);
-    }
-  }
+  Board(std::uint32_t main_bytes, const ProgramImage& image, service_block::Services& calls);
 
   bool in_memory(std::uint32_t physical) const { return physical < memory.size(); }
   std::uint8_t* page(std::uint32_t physical) {
@@ -64,5 +55,11 @@ struct Board {
   }
   bool stopped() const { return block.last.stops; }
 };
+
+/// The processor as the loader leaves it: at the image's first word, in kernel mode.
+void start(r3000::State& state, const ProgramImage& image);
+
+/// What every level says of a run: where it ended, instructions.
+ProgramResult result_of(const r3000::State& state, const Board& board, const Spec& spec);
 
 }  // namespace dendro::sgi_4d35

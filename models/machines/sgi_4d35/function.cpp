@@ -9,17 +9,10 @@ ProgramResult run_function(const Spec& spec, const ProgramImage& image, service_
                            std::uint64_t limit) {
   Board board(spec.main_bytes, image, services);
   r3000::Core<Board> core(spec.processor, board);
-  core.state().pc = image.start;
-  core.state().next_pc = image.start + 4;
-  core.state().status = 0;
+  start(core.state(), image);
   core.run(limit);
   const r3000::State& state = core.state();
-  ProgramResult result;
-  result.stopped = board.stopped();
-  result.pc = state.pc;
-  result.return_address = state.r[31];
-  result.instructions = state.instructions;
-  result.clock_hz = spec.clock_hz;
+  ProgramResult result = result_of(state, board, spec);
   result.units.push_back({"sgi_4d35.processor",
                           {{"instructions", state.instructions},
                            {"exceptions", state.exceptions},

@@ -4,6 +4,7 @@
 #include <cstring>
 #include <map>
 #include <memory>
+#include <utility>
 #include <vector>
 
 #include "models/parts/r3000/r3000_state.h"
@@ -21,11 +22,27 @@ struct PortConcept {
   bool stopped() const;
 };
 
-/// The processor without time: executes decoded words, one after another. Data sheet: README.md.
-template <class Port>
+/// What the core tells of a word to a model of time, and the clocks that it gets back. The timed core knows
+/// positions, translation and order; Timing knows caches, buffer and units. A Timing has the members that
+/// machines/sgi_4d35/pipeline.h documents; this one has none.
+struct NoTiming {
+  static constexpr bool kTimed = false;
+  struct Issue {};
+};
+
+/// kFast: words of pages that cannot change translation, fetched from the cache. kCareful: all that may
+/// happen, a fetch put off until it is known how it is translated. kWarm: fast, and nothing takes time.
+enum class Pace { kFunction, kFast, kCareful, kWarm };
+
+/// Executes decoded words, one after another; with a Timing also knows in which clock. Data sheet: README.md.
+template <class Port, class Timing = NoTiming>
 class Core {
  public:
-  Core(const Spec& spec, Port& port) : spec_(spec), port_(port) { forget(); }
+  template <class... Arguments>
+  Core(const Spec& spec, Port& port, Arguments&&... timing)
+      : time_{std::forward<Arguments>(timing)...}, spec_(spec), port_(port) {
+    forget();
+  }
 
   /// After a change of the state from outside, or of memory that holds code, call forget().
   State& state() { return s_; }
@@ -36,14 +53,34 @@ class Core {
   /// more than 0 only if the port stopped the machine.
   std::uint64_t run(std::uint64_t budget);
 
+  /// As run(), but ends also behind each word that may have reached a device.
+  std::uint64_t run_to_service(std::uint64_t budget);
+
+  Timing& time() { return time_; }
+  /// Timed: after the last word, all that comes before the machine stops; time_.clock() is then the last clock.
+  void settle();
+  /// Timed: from here on caches are kept up to date and nothing takes time, or no more so.
+  void warm(bool on) { warm_ = on; }
+
  private:
+  static constexpr bool kTimed = Timing::kTimed;
+  struct FetchMapping {
+    std::uint32_t tag = 1, physical = 0;
+  };
   struct Mapping {
     std::uint32_t tag = 1;          ///< page of the virtual address; 1: none
+    std::uint32_t physical = 0;     ///< its address
     std::uint8_t* bytes = nullptr;  ///< of its page
   };
   static constexpr unsigned kMappings = 256, kPageWords = 1024;
   struct Maps {
     std::array<Mapping, kMappings> read, write;
+  };
+
+  struct CodePage {
+    std::array<Decoded, kPageWords> words;
+    bool plain = true;  ///< no word of it changes translation
+    std::vector<typename Timing::Issue> issues;
   };
 
   static std::uint32_t load32(const std::uint8_t* p) {
@@ -64,9 +101,11 @@ class Core {
   bool slow_load(std::uint32_t address, unsigned size, std::uint32_t& value);
   bool slow_store(std::uint32_t address, unsigned size, std::uint32_t value);
   bool misaligned(std::uint32_t address, unsigned size, Access access);
-  const Decoded* fetch_page(std::uint32_t address);
+  const CodePage* fetch_page(std::uint32_t address);
   bool coprocessor1();
+  template <Pace kPace>
   std::uint64_t run_plain(std::uint64_t budget);
+  std::uint64_t run_paced(std::uint64_t budget);
   void run_after_load();
   bool execute_cp0(const Decoded& d);
   bool execute_fp(const Decoded& d);
@@ -76,17 +115,37 @@ class Core {
   bool load_part(const Decoded& d, bool left, std::uint32_t& value);
   bool store_part(const Decoded& d, bool left);
 
+  // Time: r3000_time.h. `left` is what is left of the budget; run_plain() counts clocks with it.
+  bool fetched(std::uint32_t address, std::uint64_t left);
+  void fetch_slowly(std::uint32_t address, std::uint64_t left);
+  bool is_plain(std::uint32_t address) const;
+  std::uint64_t fetch_at(std::uint32_t address, std::uint64_t now);
+  void finish_careful(std::uint32_t pc, std::uint32_t next, std::uint32_t npc, bool rfe, std::uint64_t left);
+  void finish_fault(std::uint32_t pc, std::uint32_t npc, bool refill, std::uint64_t left);
+  void catch_up(std::uint64_t left);
+  void lose_positions();
+  void interrupted();
+  bool may_hurry() const;
+
+  Timing time_;
   const Spec spec_;
   Port& port_;
   State s_;
   Fault fault_;
   bool leave_ = false;   ///< run_plain() ends after this word: interrupts or the port want to be looked at
+  bool touched_ = false;  ///< a device, or where there is none
   bool refetch_ = true;  ///< the page of the program counter must be found anew
   Maps maps_[2];
-  std::map<std::uint32_t, std::unique_ptr<std::array<Decoded, kPageWords>>> code_;  ///< by physical page
+  std::map<std::uint32_t, std::unique_ptr<CodePage>> code_;  ///< by physical page
+  bool careful_ = true, warm_ = false;
+  bool deferred_ = false;  ///< the fetch of the word behind the next is put off, and what comes behind it
+  std::uint32_t deferred_address_ = 0;
+  unsigned lost_ = 0;  ///< positions before the word at pc in which nothing executes
+  std::array<FetchMapping, kTimed ? kMappings : 1> fetches_[2];  ///< plain cached pages
 };
 
 }  // namespace dendro::r3000
 
 #include "models/parts/r3000/r3000_memory.h"
+#include "models/parts/r3000/r3000_time.h"
 #include "models/parts/r3000/r3000_run.h"

@@ -65,11 +65,14 @@ bool uncached(const State& s, std::uint32_t address) {
   return entry != nullptr && (entry->lo & kLoUncached);
 }
 
+void finish_load(State& s) {
+  if (s.pending_reg == 0) return;
+  s.r[s.pending_reg] = s.pending_value;
+  s.pending_reg = 0;
+}
+
 void enter_exception(State& s, const Fault& fault) {
-  if (s.pending_reg != 0) {
-    s.r[s.pending_reg] = s.pending_value;
-    s.pending_reg = 0;
-  }
+  finish_load(s);
   s.epc = s.in_slot ? s.pc - 4 : s.pc;
   s.cause =
       (s.cause & kCauseSoftware) | fault.code << 2 | (s.in_slot ? kCauseBd : 0) | fault.coprocessor << 28;

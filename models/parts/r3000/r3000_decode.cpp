@@ -76,8 +76,10 @@ Decoded decode_special(std::uint32_t w) {
   d.rd = target(rd_of(w));
   d.imm = sa_of(w);
   const bool plain = d.op != Op::kSyscall && d.op != Op::kBreak && d.op != Op::kJalr && d.op != Op::kReserved;
-  if (plain && d.op < Op::kMult && d.rd == kNowhere && d.op != Op::kAdd && d.op != Op::kSub)
+  if (plain && d.op < Op::kMult && d.rd == kNowhere && d.op != Op::kAdd && d.op != Op::kSub) {
     d.op = Op::kNop;
+    d.imm = w == 0;
+  }
   return d;
 }
 

@@ -93,7 +93,7 @@ enum class Op : std::uint8_t {
 constexpr unsigned kNowhere = 32;
 
 /// `imm`: the extended immediate; a branch's target less its own address; a jump's target bits 27-0; the word
-/// itself for kFp. `rd` of a load says that its result must wait for the instruction after the next.
+/// itself for kFp; for kNop 1 if it is sll r0, r0, 0, else 0. `rd` of a load says that its result must wait for the instruction after the next.
 struct Decoded {
   Op op = Op::kReserved;
   std::uint8_t rs = 0, rt = 0, rd = 0;

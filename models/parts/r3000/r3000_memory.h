@@ -4,20 +4,26 @@
 
 namespace dendro::r3000 {
 
-template <class Port>
-void Core<Port>::forget_maps() {
+template <class Port, class Timing>
+void Core<Port, Timing>::forget_maps() {
   for (Maps& maps : maps_) maps = Maps();
+  for (auto& fetches : fetches_) fetches.fill(FetchMapping());
   refetch_ = true;
 }
 
-template <class Port>
-void Core<Port>::forget() {
+template <class Port, class Timing>
+void Core<Port, Timing>::forget() {
   code_.clear();
   forget_maps();
+  if constexpr (kTimed) {  // the pipeline begins at pc
+    careful_ = true;
+    deferred_ = false;
+    lost_ = 2;
+  }
 }
 
-template <class Port>
-bool Core<Port>::misaligned(std::uint32_t address, unsigned size, Access access) {
+template <class Port, class Timing>
+bool Core<Port, Timing>::misaligned(std::uint32_t address, unsigned size, Access access) {
   if ((address & (size - 1)) == 0) return false;
   fault_ = {};
   fault_.code = access == Access::kStore ? kAdes : kAdel;
@@ -26,20 +32,22 @@ bool Core<Port>::misaligned(std::uint32_t address, unsigned size, Access access)
   return true;
 }
 
-template <class Port>
-bool Core<Port>::load(std::uint32_t address, unsigned size, std::uint32_t& value) {
+template <class Port, class Timing>
+bool Core<Port, Timing>::load(std::uint32_t address, unsigned size, std::uint32_t& value) {
   const Mapping& m = maps().read[address >> 12 & (kMappings - 1)];
   if ((address & (kPageMask | (size - 1))) != m.tag) return slow_load(address, size, value);
   const std::uint8_t* p = m.bytes + (address & ~kPageMask);
+  if constexpr (kTimed) time_.read(m.physical | (address & ~kPageMask));
   value = size == 4 ? load32(p) : size == 2 ? load16(p) : *p;
   return true;
 }
 
-template <class Port>
-bool Core<Port>::store(std::uint32_t address, unsigned size, std::uint32_t value) {
+template <class Port, class Timing>
+bool Core<Port, Timing>::store(std::uint32_t address, unsigned size, std::uint32_t value) {
   const Mapping& m = maps().write[address >> 12 & (kMappings - 1)];
   if ((address & (kPageMask | (size - 1))) != m.tag) return slow_store(address, size, value);
   std::uint8_t* p = m.bytes + (address & ~kPageMask);
+  if constexpr (kTimed) time_.write(m.physical | (address & ~kPageMask), size);
   if (size == 4) {
     store32(p, value);
   } else {
@@ -49,53 +57,83 @@ bool Core<Port>::store(std::uint32_t address, unsigned size, std::uint32_t value
   return true;
 }
 
-template <class Port>
-bool Core<Port>::slow_load(std::uint32_t address, unsigned size, std::uint32_t& value) {
+template <class Port, class Timing>
+bool Core<Port, Timing>::slow_load(std::uint32_t address, unsigned size, std::uint32_t& value) {
   std::uint32_t physical = 0;
   if (misaligned(address, size, Access::kLoad) || !translate(s_, address, Access::kLoad, physical, fault_))
     return false;
-  if (s_.status & kStatusIsc) {  // the caches alone, which this level does not have
+  std::uint8_t* const bytes = port_.page(physical);
+  const bool cached = kTimed && bytes != nullptr && !uncached(s_, address);
+  if (s_.status & kStatusIsc) {  // the caches alone; data is not in them
+    if constexpr (kTimed) time_.isolated_read(cached);
     value = 0;
     return true;
   }
-  if (std::uint8_t* bytes = port_.page(physical)) {
-    maps().read[address >> 12 & (kMappings - 1)] = {address & kPageMask, bytes};
+  if constexpr (kTimed) {
+    if (!cached) time_.read_uncached(physical);
+    if (bytes != nullptr && !cached) {
+      const std::uint8_t* p = bytes + (physical & ~kPageMask);
+      value = size == 4 ? load32(p) : size == 2 ? load16(p) : *p;
+      return true;
+    }
+  }
+  if (bytes != nullptr) {
+    maps().read[address >> 12 & (kMappings - 1)] = {address & kPageMask, physical & kPageMask, bytes};
     return load(address, size, value);
   }
-  leave_ = true;
+  leave_ = touched_ = true;
   if (port_.read(physical, size, value)) return true;
   fault_ = {};
   fault_.code = kDbe;
   return false;
 }
 
-template <class Port>
-bool Core<Port>::slow_store(std::uint32_t address, unsigned size, std::uint32_t value) {
+template <class Port, class Timing>
+bool Core<Port, Timing>::slow_store(std::uint32_t address, unsigned size, std::uint32_t value) {
   std::uint32_t physical = 0;
   if (misaligned(address, size, Access::kStore) || !translate(s_, address, Access::kStore, physical, fault_))
     return false;
-  if (s_.status & kStatusIsc) return true;
-  if (std::uint8_t* bytes = port_.page(physical)) {
+  std::uint8_t* const bytes = port_.page(physical);
+  const bool cached = !kTimed || (bytes != nullptr && !uncached(s_, address));
+  if (s_.status & kStatusIsc) {
+    if constexpr (kTimed)
+      if (cached) time_.isolated_write(physical, size, s_.status & kStatusSwc);
+    return true;
+  }
+  if (bytes != nullptr) {
     const auto code = code_.find(physical & kPageMask);
-    if (code == code_.end()) {
-      maps().write[address >> 12 & (kMappings - 1)] = {address & kPageMask, bytes};
+    if (code == code_.end() && cached) {
+      maps().write[address >> 12 & (kMappings - 1)] = {address & kPageMask, physical & kPageMask, bytes};
       return store(address, size, value);
     }
     std::uint8_t* p = bytes + (physical & ~kPageMask);
     for (unsigned i = 0; i < size; ++i) p[i] = static_cast<std::uint8_t>(value >> 8 * (size - 1 - i));
+    if constexpr (kTimed) {
+      if (cached)
+        time_.write(physical, size);
+      else
+        time_.write_uncached(physical);
+    }
+    if (code == code_.end()) return true;
     code_.erase(code);
+    for (auto& fetches : fetches_) fetches.fill(FetchMapping());
+    leave_ |= kTimed;
+    careful_ = true;
     refetch_ = true;
     return true;
   }
-  leave_ = true;
-  if (port_.write(physical, size, value)) return true;
+  leave_ = touched_ = true;
+  if (port_.write(physical, size, value)) {
+    if constexpr (kTimed) time_.write_uncached(physical);
+    return true;
+  }
   fault_ = {};
   fault_.code = kDbe;
   return false;
 }
 
-template <class Port>
-const Decoded* Core<Port>::fetch_page(std::uint32_t address) {
+template <class Port, class Timing>
+auto Core<Port, Timing>::fetch_page(std::uint32_t address) -> const CodePage* {
   std::uint32_t physical = 0;
   if (misaligned(address, 4, Access::kFetch) || !translate(s_, address, Access::kFetch, physical, fault_))
     return nullptr;
@@ -110,17 +148,25 @@ const Decoded* Core<Port>::fetch_page(std::uint32_t address) {
     }
     std::array<std::uint32_t, kPageWords> words;
     for (unsigned i = 0; i < kPageWords; ++i) words[i] = load32(bytes + 4 * i);
-    code = std::make_unique<std::array<Decoded, kPageWords>>();
-    decode_page(words.data(), kPageWords, code->data());
+    code = std::make_unique<CodePage>();
+    decode_page(words.data(), kPageWords, code->words.data());
+    if constexpr (kTimed) {
+      code->issues.resize(kPageWords);
+      for (unsigned i = 0; i < kPageWords; ++i) {
+        const Op op = code->words[i].op;
+        if (op == Op::kFp) code->issues[i] = time_.issue_of(words[i]);
+        if (op == Op::kMtc0 || (op >= Op::kTlbr && op <= Op::kRfe)) code->plain = false;
+      }
+    }
     forget_maps();  // from here on a store to this page must be noticed
   }
-  return code->data();
+  return code.get();
 }
 
 /// lwl takes the bytes from the address to the end of its word into the top of the register, lwr those from
 /// the word's beginning to the address into its bottom [GEN; MIPS I].
-template <class Port>
-bool Core<Port>::load_part(const Decoded& d, bool left, std::uint32_t& value) {
+template <class Port, class Timing>
+bool Core<Port, Timing>::load_part(const Decoded& d, bool left, std::uint32_t& value) {
   const std::uint32_t address = s_.r[d.rs] + d.imm;
   const unsigned byte = address & 3;
   std::uint32_t word = 0;
@@ -136,14 +182,17 @@ bool Core<Port>::load_part(const Decoded& d, bool left, std::uint32_t& value) {
   return true;
 }
 
-template <class Port>
-bool Core<Port>::store_part(const Decoded& d, bool left) {
+template <class Port, class Timing>
+bool Core<Port, Timing>::store_part(const Decoded& d, bool left) {
   const std::uint32_t address = s_.r[d.rs] + d.imm;
   const std::uint32_t value = s_.r[d.rt];
   const unsigned first = left ? address & 3 : 0, last = left ? 3 : address & 3;
   for (unsigned i = first; i <= last; ++i) {
     const unsigned down = left ? 8 * (3 - (i - first)) : 8 * (last - i);
-    if (!store((address & ~3u) + i, 1, value >> down & 0xFF)) {
+    if constexpr (kTimed) time_.part(i != first);  // one access, whatever number of bytes
+    const bool good = store((address & ~3u) + i, 1, value >> down & 0xFF);
+    if constexpr (kTimed) time_.part(false);
+    if (!good) {
       if (fault_.has_address) fault_.address = address;
       return false;
     }

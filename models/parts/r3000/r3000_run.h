@@ -4,11 +4,25 @@
 
 namespace dendro::r3000 {
 
-template <class Port>
-std::uint64_t Core<Port>::run(std::uint64_t budget) {
-  while (budget != 0 && !port_.stopped()) {
+template <class Port, class Timing>
+std::uint64_t Core<Port, Timing>::run(std::uint64_t budget) {
+  while (budget != 0 && !port_.stopped()) budget = run_to_service(budget);
+  return budget;
+}
+
+template <class Port, class Timing>
+std::uint64_t Core<Port, Timing>::run_to_service(std::uint64_t budget) {
+  touched_ = false;
+  while (budget != 0 && !touched_) {
+    if constexpr (kTimed) lose_positions();
     if (interrupt_due(s_)) {
       fault_ = {};
+      if constexpr (kTimed) {
+        interrupted();
+        enter_exception(s_, fault_);
+        refetch_ = true;
+        continue;
+      }
       enter_exception(s_, fault_);
       refetch_ = true;
     }
@@ -16,7 +30,7 @@ std::uint64_t Core<Port>::run(std::uint64_t budget) {
       run_after_load();
       --budget;
     } else {
-      budget = run_plain(budget);
+      budget = run_paced(budget);
     }
   }
   return budget;
@@ -24,23 +38,23 @@ std::uint64_t Core<Port>::run(std::uint64_t budget) {
 
 /// One word in the slot of a load that it may read: it sees the register's old value, and what it writes
 /// there wins.
-template <class Port>
-void Core<Port>::run_after_load() {
+template <class Port, class Timing>
+void Core<Port, Timing>::run_after_load() {
   const unsigned reg = s_.pending_reg;
   const std::uint32_t value = s_.pending_value;
   s_.pending_reg = 0;
-  const Decoded* page = fetch_page(s_.pc);
-  const Decoded d = page ? page[s_.pc >> 2 & (kPageWords - 1)] : Decoded();
+  const CodePage* page = fetch_page(s_.pc);
+  const Decoded d = page ? page->words[s_.pc >> 2 & (kPageWords - 1)] : Decoded();
   refetch_ = true;
   const bool merges = (d.op == Op::kLwl || d.op == Op::kLwr) && d.rt == reg;
   if (merges) s_.r[reg] = value;
   const std::uint64_t exceptions = s_.exceptions;
-  run_plain(1);
+  run_paced(1);
   if (!merges && (s_.exceptions != exceptions || destination_of(d) != reg)) s_.r[reg] = value;
 }
 
-template <class Port>
-bool Core<Port>::coprocessor1() {
+template <class Port, class Timing>
+bool Core<Port, Timing>::coprocessor1() {
   if (s_.status & kStatusCu1) return true;
   fault_ = {};
   fault_.code = kCpu;
@@ -48,23 +62,23 @@ bool Core<Port>::coprocessor1() {
   return false;
 }
 
-template <class Port>
-void Core<Port>::fpu_line() {
+template <class Port, class Timing>
+void Core<Port, Timing>::fpu_line() {
   const unsigned line = 1u << spec_.fpu_interrupt;
   s_.lines = static_cast<std::uint8_t>(s_.fpu.interrupting() ? s_.lines | line : s_.lines & ~line);
 }
 
 /// False: the R3010 interrupts this word.
-template <class Port>
-bool Core<Port>::control_to_fpu(std::uint32_t value) {
+template <class Port, class Timing>
+bool Core<Port, Timing>::control_to_fpu(std::uint32_t value) {
   s_.fpu.control = value & r3010::kControlWritable;
   fpu_line();
   fault_ = {};
   return !s_.fpu.interrupting() || !interrupt_due(s_);
 }
 
-template <class Port>
-bool Core<Port>::execute_fp(const Decoded& d) {
+template <class Port, class Timing>
+bool Core<Port, Timing>::execute_fp(const Decoded& d) {
   const r3010::Outcome outcome = r3010::execute(s_.fpu, d.imm);
   if (outcome == r3010::Outcome::kDone) return true;
   fault_ = {};
@@ -72,8 +86,8 @@ bool Core<Port>::execute_fp(const Decoded& d) {
   return !interrupt_due(s_);
 }
 
-template <class Port>
-void Core<Port>::multiply_divide(const Decoded& d) {
+template <class Port, class Timing>
+void Core<Port, Timing>::multiply_divide(const Decoded& d) {
   const std::uint32_t a = s_.r[d.rs], b = s_.r[d.rt];
   if (d.op == Op::kMult || d.op == Op::kMultu) {
     const std::uint64_t product =
@@ -100,8 +114,8 @@ void Core<Port>::multiply_divide(const Decoded& d) {
 }
 
 /// mtc0 and the operations of coprocessor 0.
-template <class Port>
-bool Core<Port>::execute_cp0(const Decoded& d) {
+template <class Port, class Timing>
+bool Core<Port, Timing>::execute_cp0(const Decoded& d) {
   if (s_.user() && !(s_.status & kStatusCu0)) {
     fault_ = {};
     fault_.code = kCpu;
@@ -110,6 +124,8 @@ bool Core<Port>::execute_cp0(const Decoded& d) {
   const auto drop = [this](std::uint32_t hi) {
     for (Maps& maps : maps_)
       maps.read[hi >> 12 & (kMappings - 1)] = maps.write[hi >> 12 & (kMappings - 1)] = Mapping();
+    if constexpr (kTimed)
+      for (auto& fetches : fetches_) fetches[hi >> 12 & (kMappings - 1)] = FetchMapping();
   };
   switch (d.op) {
     case Op::kMtc0: {
@@ -143,15 +159,21 @@ bool Core<Port>::execute_cp0(const Decoded& d) {
 }
 
 /// Where nothing reads a load's register in its slot. Ends early after a word that run() must look behind.
-template <class Port>
-std::uint64_t Core<Port>::run_plain(std::uint64_t budget) {
+template <class Port, class Timing>
+template <Pace kPace>
+std::uint64_t Core<Port, Timing>::run_plain(std::uint64_t budget) {
   std::uint32_t* const r = s_.r;
   std::uint32_t pc = s_.pc, npc = s_.next_pc;
   std::uint64_t left = budget, faults = 0;
   std::uint64_t branch_left =
       s_.in_slot ? budget + 1 : 0;  // `left` at the last branch, so that a slot is known
   std::uint32_t page_address = 1;
+  const CodePage* code = nullptr;
   const Decoded* page = nullptr;
+  constexpr bool kCount = kPace == Pace::kFast || kPace == Pace::kCareful, kCareful = kPace == Pace::kCareful,
+                 kHurry = kPace == Pace::kFast || kPace == Pace::kWarm;
+  std::uint32_t edge = 0;
+  if constexpr (kHurry) edge = time_.fetch_edge();
   const std::uint64_t base = s_.instructions;
   leave_ = false;
   refetch_ = true;
@@ -160,7 +182,8 @@ std::uint64_t Core<Port>::run_plain(std::uint64_t budget) {
     if (__builtin_expect(((pc ^ page_address) & (kPageMask | 3)) != 0 || refetch_, 0)) {
       refetch_ = false;
       page_address = pc & kPageMask;
-      page = fetch_page(pc);
+      code = fetch_page(pc);
+      page = code ? code->words.data() : nullptr;
       refetch_ = false;
     }
     std::uint32_t next = npc + 4, value = 0;
@@ -174,8 +197,14 @@ std::uint64_t Core<Port>::run_plain(std::uint64_t budget) {
       good = false;
       fault_ = {};
     };
+    // ALU lets the word go in clock `when(now)`.
+    const auto wait = [&](const auto& when) {
+      if constexpr (kCareful) catch_up(left);
+      if constexpr (kCount) time_.bias += when(time_, time_.bias - left);
+    };
     if (__builtin_expect(good, 1)) switch (d.op) {
         case Op::kNop:
+          if constexpr (kTimed) time_.count_nop(d.imm);
           goto plain;
         case Op::kSll:
           r[d.rd] = r[d.rt] << d.imm;
@@ -272,61 +301,66 @@ std::uint64_t Core<Port>::run_plain(std::uint64_t budget) {
         case Op::kDiv:
         case Op::kDivu:
           multiply_divide(d);
-          break;
+          wait([&](auto& time, std::uint64_t now) { return time.multiply_divide(now, d.op >= Op::kDiv); });
+          goto plain;
         case Op::kMfhi:
           r[d.rd] = s_.hi;
-          break;
+          wait([&](auto& time, std::uint64_t now) { return time.multiplier(now); });
+          goto plain;
         case Op::kMthi:
           s_.hi = r[d.rs];
-          break;
+          wait([&](auto& time, std::uint64_t now) { return time.multiplier(now); });
+          goto plain;
         case Op::kMflo:
           r[d.rd] = s_.lo;
-          break;
+          wait([&](auto& time, std::uint64_t now) { return time.multiplier(now); });
+          goto plain;
         case Op::kMtlo:
           s_.lo = r[d.rs];
-          break;
+          wait([&](auto& time, std::uint64_t now) { return time.multiplier(now); });
+          goto plain;
         case Op::kJal:
           r[31] = pc + 8;
           [[fallthrough]];
         case Op::kJ:
           branch(false);
           next = ((pc + 4) & 0xF0000000) | d.imm;
-          break;
+          goto branched;
         case Op::kJalr: {
           const std::uint32_t target = r[d.rs];
           r[d.rd] = pc + 8;
           branch(false);
           next = target;
-          break;
+          goto branched;
         }
         case Op::kJr:
           branch(false);
           next = r[d.rs];
-          break;
+          goto branched;
         case Op::kBeq:
           branch(r[d.rs] == r[d.rt]);
-          goto plain;
+          goto branched;
         case Op::kBne:
           branch(r[d.rs] != r[d.rt]);
-          goto plain;
+          goto branched;
         case Op::kBlez:
           branch(s32(r[d.rs]) <= 0);
-          goto plain;
+          goto branched;
         case Op::kBgtz:
           branch(s32(r[d.rs]) > 0);
-          goto plain;
+          goto branched;
         case Op::kBltz:
           branch(s32(r[d.rs]) < 0);
-          goto plain;
+          goto branched;
         case Op::kBgez:
           branch(s32(r[d.rs]) >= 0);
-          goto plain;
+          goto branched;
         case Op::kBltzal:
         case Op::kBgezal: {
           const bool taken = (s32(r[d.rs]) < 0) == (d.op == Op::kBltzal);
           r[31] = pc + 8;
           branch(taken);
-          break;
+          goto branched;
         }
         case Op::kBc0f:
         case Op::kBc0t:
@@ -334,12 +368,15 @@ std::uint64_t Core<Port>::run_plain(std::uint64_t budget) {
             reserved(), fault_.code = kCpu;
           else
             branch(d.op == Op::kBc0f);  // the condition input is not connected and reads 0
+          if (good) goto branched;
           break;
         case Op::kBc1f:
         case Op::kBc1t:
           good = coprocessor1();
-          if (good) branch(s_.fpu.condition() == (d.op == Op::kBc1t));
-          break;
+          if (!good) break;
+          wait([&](auto& time, std::uint64_t now) { return time.condition(now); });
+          branch(s_.fpu.condition() == (d.op == Op::kBc1t));
+          goto branched;
         case Op::kLb:
           good = load(r[d.rs] + d.imm, 1, value);
           value = static_cast<std::uint32_t>(static_cast<std::int8_t>(value));
@@ -369,10 +406,12 @@ std::uint64_t Core<Port>::run_plain(std::uint64_t budget) {
           goto loaded;
         case Op::kMfc1:
           good = coprocessor1();
+          if (good) wait([&](auto& time, std::uint64_t now) { return time.fp_register(now, d.imm); });
           value = s_.fpu.r[d.imm];
           goto loaded;
         case Op::kCfc1:
           good = coprocessor1();
+          if (good) wait([&](auto& time, std::uint64_t now) { return time.fp_empty(now); });
           value = r3010::read_control(s_.fpu, d.imm);
           goto loaded;
         loaded:
@@ -384,37 +423,65 @@ std::uint64_t Core<Port>::run_plain(std::uint64_t budget) {
           } else {
             r[d.rt] = value;
           }
-          break;
+          if constexpr (kTimed)
+            if (__builtin_expect(time_.in_mem(), 0)) goto memory;
+          goto plain;
         case Op::kSb:
           good = store(r[d.rs] + d.imm, 1, r[d.rt] & 0xFF);
+          if (good) goto memory;
           break;
         case Op::kSh:
           good = store(r[d.rs] + d.imm, 2, r[d.rt] & 0xFFFF);
+          if (good) goto memory;
           break;
         case Op::kSw:
           good = store(r[d.rs] + d.imm, 4, r[d.rt]);
+          if (good) goto memory;
           break;
         case Op::kSwl:
         case Op::kSwr:
           good = store_part(d, d.op == Op::kSwl);
+          if (good) goto memory;
           break;
         case Op::kLwc1:
-          good = coprocessor1() && load(r[d.rs] + d.imm, 4, value);
-          if (good) s_.fpu.r[d.rt] = value;
-          break;
+          good = coprocessor1();
+          if (!good) break;
+          good = load(r[d.rs] + d.imm, 4, value);
+          wait([&](auto& time, std::uint64_t now) { return time.fp_register(now, d.rt); });
+          if (!good) break;
+          s_.fpu.r[d.rt] = value;
+          if constexpr (kTimed)
+            if (__builtin_expect(time_.in_mem(), 0)) goto memory;
+          goto plain;
         case Op::kSwc1:
-          good = coprocessor1() && store(r[d.rs] + d.imm, 4, s_.fpu.r[d.rt]);
+          good = coprocessor1();
+          if (!good) break;
+          good = store(r[d.rs] + d.imm, 4, s_.fpu.r[d.rt]);
+          wait([&](auto& time, std::uint64_t now) { return time.fp_register(now, d.rt); });
+          if (good) goto memory;
           break;
         case Op::kMtc1:
           good = coprocessor1();
-          if (good) s_.fpu.r[d.rd] = r[d.rt];
-          break;
+          if (!good) break;
+          wait([&](auto& time, std::uint64_t now) { return time.fp_register(now, d.rd); });
+          s_.fpu.r[d.rd] = r[d.rt];
+          goto plain;
         case Op::kCtc1:
-          good = coprocessor1() && (d.rd != 31 || control_to_fpu(r[d.rt]));
+          good = coprocessor1();
+          if (!good) break;
+          good = d.rd != 31 || control_to_fpu(r[d.rt]);
+          wait([&](auto& time, std::uint64_t now) { return time.fp_empty(now); });
           leave_ = true;
           break;
         case Op::kFp:
-          good = coprocessor1() && execute_fp(d);
+          good = coprocessor1();
+          if (!good) break;
+          good = execute_fp(d);
+          if constexpr (kCount)
+            wait([&](auto& time, std::uint64_t now) {
+              return time.fp_issue(now, code->issues[pc >> 2 & (kPageWords - 1)], good);
+            });
+          if (good) goto plain;
           break;
         case Op::kMtc0:
         case Op::kTlbr:
@@ -440,11 +507,22 @@ std::uint64_t Core<Port>::run_plain(std::uint64_t budget) {
       }
     if (__builtin_expect(good, 1)) {
     plain:
+      if constexpr (kHurry)
+        if (__builtin_expect((next & edge) == 0, 0)) fetched(next, left);
+      if constexpr (kCareful) {
+        catch_up(left);
+        finish_careful(pc, npc, next, d.op == Op::kRfe, left);
+      }
       pc = npc;
       npc = next;
     } else {
       s_.pc = pc;
       s_.in_slot = branch_left == left + 1;
+      if constexpr (kTimed) {
+        if constexpr (kHurry) time_.uncount_fetch();
+        catch_up(left);
+        finish_fault(pc, npc, fault_.refill, left);
+      }
       enter_exception(s_, fault_);
       pc = s_.pc;
       npc = s_.next_pc;
@@ -452,8 +530,39 @@ std::uint64_t Core<Port>::run_plain(std::uint64_t budget) {
       branch_left = 0;
       ++faults;
     }
+    goto stepped;
+  memory:  // a store, or a load that MEM must wait for
+    if constexpr (kHurry) {
+      if (__builtin_expect((next & edge) == 0, 0)) fetched(next, left);
+      if constexpr (kPace == Pace::kFast)
+        time_.bias += time_.memory(time_.bias - left + 1) - (time_.bias - left + 1);
+      else
+        time_.no_memory();
+      pc = npc;
+      npc = next;
+      goto stepped;
+    }
+    goto plain;
+  branched:
+    if constexpr (kHurry) {
+      fetched(next, left);
+      pc = npc;
+      npc = next;
+      goto stepped;
+    }
+    goto plain;
+  stepped:
     --left;
+    if constexpr (kCareful)
+      if (lost_ == 0 && !leave_) {
+        s_.pc = pc;
+        s_.next_pc = npc;
+        time_.bias -= left;
+        leave_ = may_hurry();
+        time_.bias += left;
+      }
   }
+  if constexpr (kHurry) time_.count_fetches(budget - left);
   s_.pc = pc;
   s_.next_pc = npc;
   s_.in_slot = branch_left != 0 && branch_left == left + 1;

@@ -62,6 +62,12 @@ bool translate(State& s, std::uint32_t address, Access access, std::uint32_t& ph
 /// True for an address that goes past the caches: kseg1, or by its TLB entry. It must translate.
 bool uncached(const State& s, std::uint32_t address);
 
+/// True for kseg1 and for a page whose TLB entry has N set.
+bool uncached(const State& s, std::uint32_t address);
+
+/// The register that the load under way writes gets its value now.
+void finish_load(State& s);
+
 /// Enters an exception at the word at s.pc / s.in_slot: EPC, Cause, mode stack, vector. A load under way
 /// completes first.
 void enter_exception(State& s, const Fault& fault);

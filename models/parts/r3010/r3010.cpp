@@ -27,6 +27,8 @@ Outcome finish(State& s, unsigned exceptions) {
   return Outcome::kDone;
 }
 
+}  // namespace
+
 bool exists(unsigned format, unsigned operation) {
   if (format == kWord) return operation == kCvtS || operation == kCvtD;
   if (format != kSingle && format != kDouble) return false;
@@ -35,8 +37,6 @@ bool exists(unsigned format, unsigned operation) {
   if (operation == kCvtD) return format == kSingle;
   return operation <= kDiv || (operation >= kAbs && operation <= kNeg) || operation == kCvtW;
 }
-
-}  // namespace
 
 std::uint32_t read_control(const State& s, unsigned reg) {
   return reg == 31 ? s.control : reg == 0 ? kRevision : 0;

@@ -59,6 +59,9 @@ struct State {
 
 std::uint32_t read_control(const State& state, unsigned reg);
 
+/// True if the R3010 has the operation in that format.
+bool exists(unsigned format, unsigned operation);
+
 enum class Outcome { kDone, kInterrupt };
 
 /// Executes an arithmetic word (format and operation valid or not). With an enabled exception neither the

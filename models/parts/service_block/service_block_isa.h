@@ -15,6 +15,11 @@
 #define DENDRO_SERVICE_MEMORY 0x28   /* read: bytes of main memory */
 #define DENDRO_SERVICE_MAPPED 0x2C   /* read: 1 if the program runs in user mode through the TLB */
 
+/* Calls that mark phases: argument 0 is the program's label */
+#define DENDRO_MARK_START 0x7000
+#define DENDRO_MARK_STOP 0x7001
+#define DENDRO_MARK_LABEL 0x7002
+
 #define DENDRO_CALL_FAULT 0x6FFF /* the program raised an exception: Cause, EPC, BadVAddr, FCR31 */
 
 #define DENDRO_PAGE_TABLE 0x80200000 /* 2 MB: a word in the form of EntryLo for every page of kuseg */

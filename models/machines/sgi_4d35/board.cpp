@@ -1,0 +1,34 @@
+#include "models/machines/sgi_4d35/board.h"
+
+#include <algorithm>
+
+#include "sim/base/check.h"
+
+namespace dendro::sgi_4d35 {
+
+Board::Board(std::uint32_t main_bytes, const ProgramImage& image, service_block::Services& calls)
+    : memory(main_bytes), services(calls), program(image.program) {
+  for (const ProgramImage::Chunk& chunk : image.chunks) {
+    DENDRO_CHECK(chunk.physical <= memory.size() && chunk.bytes.size() <= memory.size() - chunk.physical,
+                 "0x{:x} + {} bytes", chunk.physical, chunk.bytes.size());
+    std::copy(chunk.bytes.begin(), chunk.bytes.end(), memory.begin() + chunk.physical);
+  }
+}
+
+void start(r3000::State& state, const ProgramImage& image) {
+  state.pc = image.start;
+  state.next_pc = image.start + 4;
+  state.status = 0;
+}
+
+ProgramResult result_of(const r3000::State& state, const Board& board, const Spec& spec) {
+  ProgramResult result;
+  result.stopped = board.stopped();
+  result.pc = state.pc;
+  result.return_address = state.r[31];
+  result.instructions = state.instructions;
+  result.clock_hz = spec.clock_hz;
+  return result;
+}
+
+}  // namespace dendro::sgi_4d35

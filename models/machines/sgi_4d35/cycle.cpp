@@ -1,0 +1,63 @@
+#include "models/machines/sgi_4d35/cycle.h"
+
+#include "models/machines/sgi_4d35/board.h"
+#include "models/machines/sgi_4d35/marks.h"
+#include "models/machines/sgi_4d35/pipeline.h"
+#include "models/parts/r3000/r3000.h"
+
+namespace dendro::sgi_4d35 {
+namespace {
+
+using TimedCore = r3000::Core<Board, Pipeline>;
+
+/// Keeps what RunOptions and MachineOptions ask for of every word.
+class Log : public Pipeline::Listener {
+ public:
+  explicit Log(const RunOptions& options) : options_(options) {}
+  bool wanted() const { return options_.retired != nullptr || options_.machine.word_clocks != nullptr; }
+  void left_memory(const Retired& word, std::uint64_t then) override {
+    if (options_.retired != nullptr) options_.retired->push_back(word);
+    if (options_.machine.word_clocks == nullptr) return;
+    WordClocks& clocks = (*options_.machine.word_clocks)[word.pc];
+    ++clocks.times;
+    clocks.clocks += word.clock + 1 - then;
+  }
+
+ private:
+  const RunOptions& options_;
+};
+
+}  // namespace
+
+ProgramResult run_cycle(const Spec& spec, const ProgramImage& image, service_block::Services& services,
+                        std::uint64_t limit, const RunOptions& options) {
+  MarkedServices marked(services);
+  Board port(spec.main_bytes, image, marked);
+  TimedCore core(spec.processor, port, spec);
+  start(core.state(), image);
+  Log log(options);
+  if (log.wanted()) core.time().listen(&log);
+  std::vector<ProgramMark> marks;
+  for (std::uint64_t left = limit; left != 0 && !port.stopped();) {
+    left = core.run_to_service(left);
+    if (auto mark = marked.take()) {
+      mark->instructions = core.state().instructions - 1;
+      mark->cycles = static_cast<std::int64_t>(core.time().bias);
+      marks.push_back(*mark);
+    }
+  }
+  core.settle();
+  const r3000::State& state = core.state();
+  ProgramResult result = result_of(state, port, spec);
+  const Counters counters = core.time().counters(state.instructions, core.time().bias);
+  result.cycles = static_cast<std::int64_t>(counters.cycles);
+  result.marks = marks;
+  result.units = units_of(counters, r3000::counters_of(state));
+  if (options.final_state != nullptr) {
+    *options.final_state = state;
+    r3000::finish_load(*options.final_state);
+  }
+  return result;
+}
+
+}  // namespace dendro::sgi_4d35

@@ -1,0 +1,71 @@
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+
+#include "models/parts/r3010/r3010_timing.h"
+
+namespace dendro::r3010 {
+
+/// What an arithmetic word asks for, worked out once: registers, unit, clocks.
+struct Issue {
+  std::uint8_t reads[4];   ///< a register each; kNoRegister where there is none
+  std::uint8_t writes[2];  ///< the condition counts as one
+  Unit unit;
+  std::uint8_t cycles;
+};
+
+constexpr unsigned kNoRegister = 32, kConditionRegister = 33;
+
+Issue issue_of(std::uint32_t word, const Timing& timing);
+
+/// Units and registers of the R3010 in absolute clocks. A word that is in the R3000's ALU stage from clock
+/// `now` on issues in the clock that is returned. Rules: README.md, chapter Time.
+class Scoreboard {
+ public:
+  explicit Scoreboard(const Timing& timing) : rounding_(timing.rounding != 0) {}
+
+  /// The clock in which the word could issue.
+  std::uint64_t when(const Issue& o, std::uint64_t now) const {
+    std::uint64_t t = std::max(now, unit_free_[static_cast<unsigned>(o.unit)]);
+    for (const std::uint8_t reg : o.reads) t = std::max(t, ready_[reg]);
+    for (const std::uint8_t reg : o.writes) t = std::max(t, ready_[reg]);
+    return rounding_ ? clear_of_rounding(o, t) : t;
+  }
+  /// It issues in clock `t`.
+  void issue(const Issue& o, std::uint64_t t) {
+    const std::uint64_t end = t + o.cycles;
+    unit_free_[static_cast<unsigned>(o.unit)] = end;
+    ready_[o.writes[0]] = ready_[o.writes[1]] = end;
+    ready_[kNoRegister] = 0;
+    if (rounding_ && o.unit != Unit::kAdder) rounds_[o.unit == Unit::kDivider] = end - 1;
+  }
+  /// A move that reads or writes a register; kConditionRegister for a branch on the condition.
+  std::uint64_t when_register(unsigned reg, std::uint64_t now) const { return std::max(now, ready_[reg]); }
+  /// Nothing is under way in any unit.
+  std::uint64_t when_empty(std::uint64_t now) const {
+    return std::max(std::max(now, unit_free_[0]), std::max(unit_free_[1], unit_free_[2]));
+  }
+
+ private:
+  std::uint64_t clear_of_rounding(const Issue& o, std::uint64_t t) const {
+    if (o.unit == Unit::kAdder) {
+      for (bool moved = true; moved;) {
+        moved = false;
+        for (const std::uint64_t clock : rounds_)
+          if (clock >= t && clock < t + o.cycles) t = clock + 1, moved = true;
+      }
+      return t;
+    }
+    const std::uint64_t other = rounds_[o.unit != Unit::kDivider];
+    while (t + o.cycles - 1 < unit_free_[0] || t + o.cycles - 1 == other) ++t;
+    return t;
+  }
+
+  bool rounding_;
+  std::uint64_t ready_[34] = {};
+  std::uint64_t unit_free_[3] = {};
+  std::uint64_t rounds_[2] = {};  ///< clock in which the multiplier, the divider takes the adder; 0: none
+};
+
+}  // namespace dendro::r3010
