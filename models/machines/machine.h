@@ -126,12 +126,21 @@ struct ProgramImage {
   service_block::Program program;
 };
 
+/// A call of a program's that marks a place in it; instructions and cycles are those before it.
+struct ProgramMark {
+  std::uint32_t number = 0, label = 0;  ///< of the call (0x7000 up) and its argument
+  std::uint64_t instructions = 0;
+  std::int64_t cycles = 0;
+};
+
 struct ProgramResult {
   bool stopped = false;  ///< by a service; otherwise the limit was reached
   std::uint32_t pc = 0, return_address = 0;
   std::uint64_t instructions = 0;
+  std::int64_t cycles = 0;  ///< 0 at `function`
   double clock_hz = 0;
   std::vector<UnitStats> units;
+  std::vector<ProgramMark> marks;  ///< empty at levels that do not time them
 };
 
 /// One entry of the list of machines.

@@ -16,6 +16,7 @@
 #include "sim/base/sha256.h"
 #include "sim/config/document.h"
 #include "sim/study/primitives.h"
+#include "sim/study/zbuffer_views.h"
 
 namespace dendro::study {
 std::int64_t integer_of(const config::ParameterSet& parameters, const std::string& key) {
@@ -210,6 +211,7 @@ const std::vector<Algorithm>& algorithms() {
         "mip", "trunk_base", "trunk_range", "trunk_distance", "fraction_bits", "guard_bits", "edge_fraction_bits", "variant",
         "colouring"}},
       raster_primitives_algorithm(),
+      zbuffer_views_algorithm(),
   };
   return list;
 }
@@ -242,6 +244,7 @@ std::vector<Firmware> firmware_list() {
     list.push_back({"half_space", kPixelPlanes, programs.name, fmt::format("{}p", ports), programs.sha256, programs.words.size()});
   }
   for (Firmware& firmware : raster_primitives_firmware()) list.push_back(std::move(firmware));
+  for (Firmware& firmware : zbuffer_views_firmware()) list.push_back(std::move(firmware));
   return list;
 }
 

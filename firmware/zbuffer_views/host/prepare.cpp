@@ -190,6 +190,9 @@ Prepared prepare(const scene::Scene& scene, RunSettings& settings) {
   p.skip_empty = options.boolean("skip_empty", false);
   p.full_product = options.boolean("full_product", false);
   settings = read_run(options, p);
+  // Which programs are run is not a matter of the scene's content.
+  options.choice("compiler", "O2", {"O2", "O1", "fcr31"});
+  options.boolean("mapped", true);
   options.finish();
   return p;
 }

@@ -36,7 +36,8 @@ std::vector<Direction> view_directions(int bands) {
 std::vector<int> choose_views(int bands, const glm::dvec3& to_viewer) {
   const double level = std::hypot(to_viewer.x, to_viewer.z);
   const double theta = std::atan2(level, to_viewer.y);
-  double phi = std::atan2(to_viewer.x, to_viewer.z);
+  // At a pole every longitude is right; signed zeros must not choose one.
+  double phi = level == 0 ? 0 : std::atan2(to_viewer.x, to_viewer.z);
   if (phi < 0) phi += 2 * kPi;
   const int band = std::min(static_cast<int>(std::floor(theta * bands / kPi)), bands - 1);
   std::vector<int> chosen;

@@ -53,14 +53,22 @@ struct Buffer {
       : depth(static_cast<std::size_t>(window.width) * window.height, kNothing), samples(depth.size()) {}
 };
 
+/// The views of a placed tree for a direction to the viewer.
+std::vector<int> views_towards(const Prepared& p, const Placement& placement, const glm::dvec3& direction) {
+  return choose_views(p.views.bands, turned(direction, -placement.turn));
+}
+
+glm::dvec3 to_camera(const Prepared& p, const Frame& frame, const Placement& placement) {
+  return p.perspective ? frame.eye - placement.at : -frame.axes.forward;
+}
+
 /// V6 (or V7) of all trees; `towards` is the direction to the viewer from a tree's centre.
 template <class Towards>
 Buffer reproject(const Prepared& p, const std::vector<StoredView>& views, const Window& window, const Towards& towards) {
   Buffer buffer(window);
   const double pitch = window_pitch(p.tree, p.views);
   for (const Placement& placement : p.placements) {
-    const glm::dvec3 direction = turned(towards(placement), -placement.turn);
-    for (const int number : choose_views(p.views.bands, direction)) {
+    for (const int number : views_towards(p, placement, towards(placement))) {
       const StoredView& view = views[static_cast<std::size_t>(number)];
       for (const std::vector<Sample>& layer : view.layers)
         for (std::size_t at = 0; at < layer.size(); ++at) {
@@ -115,13 +123,13 @@ class Shader {
     const Colour& entry = p_.tree.colours[colour];
     const bool below = late && entry.part == Part::kLeaf && glm::dot(normal, to_eye) < 0;
     if (below) normal = -normal;
-    const Colour& shown = below ? p_.tree.colours[static_cast<std::size_t>(entry.below)] : entry;
+    const int shown = below ? entry.below : colour;
     const bool bright = lit(point);
     const double shade = p_.ambient + (bright ? p_.diffuse * std::max(0.0, glm::dot(normal, frame_.to_light)) : 0);
     picture_.depth[at] = depth;
-    picture_.colour[at] = colour;
+    picture_.colour[at] = static_cast<std::uint8_t>(shown);
     picture_.shadow[at] = !bright;
-    for (std::size_t c = 0; c < 3; ++c) picture_.rgb[3 * at + c] = shown.rgb[c] * shade;
+    for (std::size_t c = 0; c < 3; ++c) picture_.rgb[3 * at + c] = p_.tree.colours[static_cast<std::size_t>(shown)].rgb[c] * shade;
   }
 
   ReferencePicture take() { return std::move(picture_); }
@@ -139,11 +147,24 @@ std::int64_t ReferencePicture::covered() const {
   return static_cast<std::int64_t>(colour.size()) - std::count(colour.begin(), colour.end(), kNoColour);
 }
 
+std::vector<StoredView> needed_views(const Prepared& p, const Frame& frame) {
+  const std::vector<Direction> directions = view_directions(p.views.bands);
+  ViewSettings settings = p.views;
+  settings.pitch = window_pitch(p.tree, p.views);
+  std::vector<bool> needed(directions.size(), false);
+  for (const Placement& placement : p.placements) {
+    for (const int number : views_towards(p, placement, to_camera(p, frame, placement))) needed[static_cast<std::size_t>(number)] = true;
+    for (const int number : views_towards(p, placement, frame.to_light)) needed[static_cast<std::size_t>(number)] = needed[static_cast<std::size_t>(number)] || p.shadows;
+  }
+  std::vector<StoredView> views(directions.size());
+  for (std::size_t i = 0; i < views.size(); ++i)
+    if (needed[i]) views[i] = make_view(p.tree, settings, directions[i]);
+  return views;
+}
+
 ReferencePicture reconstruct(const Prepared& p, const std::vector<StoredView>& views, const Frame& frame) {
   const Window window = camera_window(p, frame), light = light_window(p, frame);
-  const Buffer seen = reproject(p, views, window, [&](const Placement& placement) {
-    return p.perspective ? frame.eye - placement.at : -frame.axes.forward;
-  });
+  const Buffer seen = reproject(p, views, window, [&](const Placement& placement) { return to_camera(p, frame, placement); });
   std::vector<double> lit_depth;
   if (p.shadows) lit_depth = reproject(p, views, light, [&](const Placement&) { return frame.to_light; }).depth;
   const auto lit = [&](const glm::dvec3& point) {

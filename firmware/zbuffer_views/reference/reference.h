@@ -12,12 +12,15 @@ namespace dendro::zbuffer_views {
 struct ReferencePicture {
   int width = 0, height = 0;
   std::vector<double> depth;         ///< metres along the view from the eye; infinite where nothing is
-  std::vector<std::uint8_t> colour;  ///< index into the table; kNoColour where nothing is
+  std::vector<std::uint8_t> colour;  ///< index into the table, of the side that is seen; kNoColour where nothing is
   std::vector<std::uint8_t> shadow;  ///< 1: only ambient light
   std::vector<double> rgb;           ///< 0..255, three a pixel
 
   std::int64_t covered() const;
 };
+
+/// The views that a frame is made from, the light's included, at their numbers; the others are left empty.
+std::vector<StoredView> needed_views(const Prepared& prepared, const Frame& frame);
 
 /// V5 to V8: one frame of the scene from stored views.
 ReferencePicture reconstruct(const Prepared& prepared, const std::vector<StoredView>& views, const Frame& frame);
