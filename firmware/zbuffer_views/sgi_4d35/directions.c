@@ -18,7 +18,8 @@ uint32_t all_views(uint32_t bands) {
 static void make_view(uint32_t bands, struct zbv_view* view) {
   const double kPi = 3.1415926535897931;
   const long k = (long)view->circle, n = (long)bands, j = (long)view->number, m = (long)view->circle_views;
-  const double st = turn_sine(k, 2 * n), ct = turn_cosine(k, 2 * n), sp = turn_sine(j, m), cp = turn_cosine(j, m);
+  const double st = turn_sine(k, 2 * n), ct = turn_cosine(k, 2 * n), sp = turn_sine(j, m),
+               cp = turn_cosine(j, m);
   const double rows[9] = {cp, 0, -sp, -ct * sp, st, -ct * cp, -st * sp, -ct, -st * cp};
   view->theta = (float)(kPi * (double)k / (double)n);
   view->phi = (float)(2 * kPi * (double)j / (double)m);

@@ -7,6 +7,9 @@ void make_layers(struct layers* to, const struct zbv_job* job, const char* job_p
   to->count = (int32_t)job->layers;
   to->threshold = job->threshold;
   to->samples = need(samples * job->layers * sizeof *to->samples, job_path);
+  to->rows = need(job->view_height * sizeof *to->rows, job_path);
+  for (uint32_t j = 0; j < job->view_height; ++j)
+    to->rows[j] = to->samples + j * job->view_width * job->layers;
   to->before = to->now = NULL;
   if (job->rule == kZbvPeel) {
     to->before = need(samples * sizeof *to->before, job_path);
@@ -49,8 +52,8 @@ static __attribute__((noinline)) void insert_span(void* to, int32_t row, int32_t
   const int32_t count = l->count;
   const float threshold = l->threshold;
   const uint32_t attributes = f->attributes;
-  struct sample *at = l->samples + (row * l->width + left) * count, *end = at + (right - left) * count;
-  for (; at != end; at += count, z += step) put_sample(at, count, threshold, z, attributes);
+  struct sample* at = l->rows[row] + left * count;
+  for (; left < right; ++left, at += count, z += step) put_sample(at, count, threshold, z, attributes);
 }
 
 void insert_triangles(struct layers* to, const struct corner* corners, const struct zbv_triangle* triangles,
@@ -102,23 +105,20 @@ void peel_triangles(struct layers* to, const struct corner* corners, const struc
   }
 }
 
-static void write_bytes(const struct sample* from, int32_t step, size_t samples, unsigned shift, void* plane,
-                        const struct output* to) {
-  uint8_t* bytes = plane;
-  for (size_t i = 0; i < samples; ++i, from += step) bytes[i] = (uint8_t)(from->attributes >> shift);
-  write_output(to, plane, samples);
-}
-
-void write_layers(const struct layers* from, void* plane, const struct output* to) {
+void write_layers(const struct layers* from, void* planes, const struct output* to) {
   const size_t samples = (size_t)(from->width * from->height);
-  for (int32_t layer = 0; layer < from->count; ++layer) {
+  const int32_t count = from->count;
+  for (int32_t layer = 0; layer < count; ++layer) {
     const struct sample* s = from->samples + layer;
-    float* z = plane;
-    for (size_t i = 0; i < samples; ++i) z[i] = s[(int32_t)i * from->count].z;
-    write_output(to, plane, samples * sizeof *z);
-    for (unsigned shift = 16;; shift -= 8) {
-      write_bytes(s, from->count, samples, shift, plane, to);
-      if (shift == 0) break;
+    float *z = planes, *const end = z + samples;
+    uint8_t *latitude = (uint8_t*)end, *longitude = latitude + samples, *colour = longitude + samples;
+    for (; z != end; s += count) {
+      const uint32_t attributes = s->attributes;
+      *z++ = s->z;
+      *latitude++ = (uint8_t)(attributes >> 16);
+      *longitude++ = (uint8_t)(attributes >> 8);
+      *colour++ = (uint8_t)attributes;
     }
+    write_output(to, planes, kZbvSampleBytes * samples);
   }
 }

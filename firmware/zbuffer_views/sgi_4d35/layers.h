@@ -13,7 +13,8 @@ struct layers {
   int32_t width, height, count;
   float threshold;
   struct sample* samples;
-  uint32_t* before; /* peel: the triangle that each sample's layer above came from */
+  struct sample** rows; /* the first sample of each */
+  uint32_t* before;     /* peel: the triangle that each sample's layer above came from */
   uint32_t* now;
 };
 
@@ -27,5 +28,5 @@ void insert_triangles(struct layers* to, const struct corner* corners, const str
 void peel_triangles(struct layers* to, const struct corner* corners, const struct zbv_triangle* triangles,
                     const uint32_t* attributes, uint32_t count);
 
-/* Planes of one view behind what the file holds; `plane` has room for 4 bytes a sample. */
-void write_layers(const struct layers* from, void* plane, const struct output* to);
+/* Planes of one view behind what the file holds; `planes` has room for one layer's. */
+void write_layers(const struct layers* from, void* planes, const struct output* to);

@@ -1,4 +1,3 @@
-#include "firmware/zbuffer_views/sgi_4d35/rounding.h"
 #include "firmware/zbuffer_views/sgi_4d35/shade.h"
 
 void make_picture(struct picture* to, const struct zbv_job* job, const char* job_path) {
@@ -22,14 +21,11 @@ void write_picture(const struct picture* from, const struct output* to) {
 void make_pictures_head(const struct zbv_job* job, struct zbv_pictures* head) {
   head->head = job->head;
   head->head.magic = kZbvPicturesMagic;
-  head->head.bytes =
-      sizeof *head + job->frames * (sizeof(struct zbv_picture) + 8 * job->width * job->height);
+  head->head.bytes = sizeof *head + job->frames * (sizeof(struct zbv_picture) + 8 * job->width * job->height);
   head->width = job->width;
   head->height = job->height;
   head->frames = job->frames;
 }
-
-uint8_t shaded(float channel, float shade) { return (uint8_t)floor_to_int(channel * shade + 0.5f); }
 
 struct shade_colour* shade_colours(const struct zbv_colour* colours, uint32_t count, const char* job_path) {
   struct shade_colour* table = need(count * sizeof *table, job_path);

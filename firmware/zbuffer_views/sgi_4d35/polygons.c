@@ -25,12 +25,28 @@ static void find_normals(struct work* work) {
   }
 }
 
+/* No edge is so long that it could lead from the picture to beyond the guard. */
+static void check_edges(const struct work* work) {
+  const struct tree* tree = &work->tree;
+  const float most = (float)(kGuard / kUnit - kZbvMostSide - 1) / work->job.facts.scale;
+  for (uint32_t i = 0; i < tree->facts.triangles; ++i) {
+    const uint32_t* corner = tree->triangles[i].corner;
+    for (int k = 0; k < 3; ++k) {
+      const float *a = tree->vertices[corner[k]], *b = tree->vertices[corner[k == 2 ? 0 : k + 1]];
+      const float x = b[0] - a[0], y = b[1] - a[1], z = b[2] - a[2];
+      if (x * x + y * y + z * z > most * most)
+        fail(work->job_path, "scale: is too large: triangle %u is thousands of pixels long", i);
+    }
+  }
+}
+
 static float within_guard(float value) {
   const float guard = (float)(kGuard + kUnit);
   return value < -guard ? -guard : value > guard ? guard : value;
 }
 
-static void project_vertices(struct work* work, const struct zbv_frame* frame, const struct zbv_placement* tree) {
+static void project_vertices(struct work* work, const struct zbv_frame* frame,
+                             const struct zbv_placement* tree) {
   const struct zbv_job* job = &work->job.facts;
   double rows[3][4];
   for (int i = 0; i < 3; ++i) {
@@ -96,19 +112,9 @@ static void draw_span(void* to, int32_t row, int32_t left, int32_t right, float 
   }
 }
 
+/* A triangle with a corner beyond the guard does not reach the picture (check_edges). */
 static int is_within(const struct corner* c) {
   return c->x >= -kGuard && c->x <= kGuard && c->y >= -kGuard && c->y <= kGuard;
-}
-
-/* Whether a triangle can be drawn; none that cannot reaches the picture. */
-static int is_drawable(const struct work* work, const struct corner* a, const struct corner* b,
-                       const struct corner* c) {
-  if (is_within(a) && is_within(b) && is_within(c)) return 1;
-  const int32_t width = (int32_t)work->job.facts.width * kUnit, height = (int32_t)work->job.facts.height * kUnit;
-  if (most(a->x, most(b->x, c->x)) < 0 || least(a->x, least(b->x, c->x)) > width ||
-      most(a->y, most(b->y, c->y)) < 0 || least(a->y, least(b->y, c->y)) > height)
-    return 0;
-  fail(work->job_path, "scale: is too large: a triangle in the picture reaches 5000 pixels out of it");
 }
 
 static void draw_tree(struct work* work, const struct zbv_frame* frame, const struct zbv_placement* tree) {
@@ -129,7 +135,7 @@ static void draw_tree(struct work* work, const struct zbv_frame* frame, const st
     const uint32_t* corner = work->tree.triangles[d.triangle].corner;
     const struct corner *a = work->corners + corner[0], *b = work->corners + corner[1],
                         *c = work->corners + corner[2];
-    if (!is_drawable(work, a, b, c)) continue;
+    if (!is_within(a) || !is_within(b) || !is_within(c)) continue;
     d.has_pixel = 0;
     scan_triangle(a, b, c, width, height, draw_span, &d);
   }
@@ -168,6 +174,7 @@ static void prepare(struct work* work, char** argv) {
   if (job->projection != kZbvParallel) fail(argv[1], "projection: polygons are drawn in parallel projection");
   if (job->shadows) fail(argv[1], "shadows: polygons are drawn without");
   load_tree(argv[2], job, argv[1], &work->tree);
+  check_edges(work);
   work->normals = need(work->tree.facts.triangles * sizeof *work->normals, argv[1]);
   work->corners = need(work->tree.facts.vertices * sizeof *work->corners, argv[1]);
   work->z = need(job->width * job->height * sizeof *work->z, argv[1]);

@@ -5,7 +5,8 @@
 
 static void print_directions(const char* text) {
   uint32_t bands = 0;
-  for (const char* c = text; *c >= '0' && *c <= '9' && bands < 1000; ++c) bands = bands * 10 + (uint32_t)(*c - '0');
+  for (const char* c = text; *c >= '0' && *c <= '9' && bands < 1000; ++c)
+    bands = bands * 10 + (uint32_t)(*c - '0');
   check_range("--directions", "bands", bands, kZbvLeastBands, kZbvMostBands);
   printf("%u bands, %u views:", bands, all_views(bands));
   for (uint32_t k = 0; k <= bands; ++k) printf(" %u", circle_views(bands, k));
@@ -66,17 +67,15 @@ static float find_pitch(const struct tree* tree, const struct zbv_view* views, u
 }
 
 static void project_vertices(const struct tree* tree, const struct zbv_view* view, float pitch,
-                             struct corner* corners, const char* job_path) {
+                             struct corner* corners) {
   const float unit = (float)kUnit / pitch, *frame = view->frame;
   const float xx = frame[0] * unit, xz = frame[2] * unit, x0 = view->x0 * unit;
   const float yx = frame[3] * unit, yy = frame[4] * unit, yz = frame[5] * unit, y0 = view->y0 * unit;
-  const float zx = frame[6], zy = frame[7], zz = frame[8], guard = (float)kGuard;
+  const float zx = frame[6], zy = frame[7], zz = frame[8];
   for (uint32_t i = 0; i < tree->facts.vertices; ++i) {
     const float *p = tree->vertices[i], a = p[0], b = p[1], c = p[2];
     const float x = xx * a + xz * c - x0, y = yx * a + yy * b + yz * c - y0;
     corners[i].z = zx * a + zy * b + zz * c;
-    if (x < -guard || x > guard || y < -guard || y > guard)
-      fail(job_path, "pitch: is too small: the tree is more than 5000 samples wide");
     corners[i].x = round_to_int(x);
     corners[i].y = round_to_int(y);
   }
@@ -84,19 +83,18 @@ static void project_vertices(const struct tree* tree, const struct zbv_view* vie
 
 struct work {
   const struct zbv_job* job;
-  const char* job_path;
   struct tree tree;
   uint32_t* attributes; /* of each triangle; with *early* another set follows, of the present view */
   struct corner* corners;
   struct layers layers;
-  void* plane;
+  void* planes;
 };
 
 static void draw_view(struct work* work, const struct zbv_view* view, float pitch) {
   const struct tree* tree = &work->tree;
   const uint32_t triangles = tree->facts.triangles, *attributes = work->attributes;
   begin_phase(kZbvProject);
-  project_vertices(tree, view, pitch, work->corners, work->job_path);
+  project_vertices(tree, view, pitch, work->corners);
   if (work->job->leaf_side == kZbvEarly) {
     choose_sides(tree, view, attributes, work->attributes + triangles);
     attributes += triangles;
@@ -128,18 +126,18 @@ static void make_facts(const struct work* work, uint32_t views, float pitch, str
   facts->threshold = job->threshold;
   facts->radius = work->tree.radius;
   facts->half_height = work->tree.half_height;
-  facts->head.bytes = sizeof *facts + tree->colours * sizeof(struct zbv_colour) + views * sizeof(struct zbv_view) +
+  facts->head.bytes = sizeof *facts + tree->colours * sizeof(struct zbv_colour) +
+                      views * sizeof(struct zbv_view) +
                       views * job->layers * job->view_width * job->view_height * kZbvSampleBytes;
 }
 
-static void make_room(struct work* work) {
-  const char* job_path = work->job_path;
+static void make_room(struct work* work, const char* job_path) {
   const uint32_t triangles = work->tree.facts.triangles;
   const uint32_t sets = work->job->leaf_side == kZbvEarly ? 2 : 1;
   work->attributes = need(sets * triangles * sizeof *work->attributes, job_path);
   work->corners = need(work->tree.facts.vertices * sizeof *work->corners, job_path);
   make_layers(&work->layers, work->job, job_path);
-  work->plane = need(work->job->view_width * work->job->view_height * 4, job_path);
+  work->planes = need(work->job->view_width * work->job->view_height * kZbvSampleBytes, job_path);
 }
 
 int main(int argc, char** argv) {
@@ -152,20 +150,23 @@ int main(int argc, char** argv) {
   load_job(argv[1], &job);
   check_build(argv[1], &job.facts);
   work.job = &job.facts;
-  work.job_path = argv[1];
   load_tree(argv[2], &job.facts, argv[1], &work.tree);
 
   begin_phase(kZbvDirections);
   const uint32_t count = all_views(job.facts.bands);
   struct zbv_view* views = need(count * sizeof *views, argv[1]);
   make_views(job.facts.bands, views);
-  const float pitch = job.facts.pitch > 0 ? job.facts.pitch : find_pitch(&work.tree, views, count, &job.facts);
+  const float pitch =
+      job.facts.pitch > 0 ? job.facts.pitch : find_pitch(&work.tree, views, count, &job.facts);
   if (!(pitch > 0)) fail(argv[2], "has no extent");
+  /* A corner is at most this far from a window's middle, and so within the guard. */
+  if ((work.tree.radius + work.tree.half_height) / pitch > (float)(kGuard / kUnit - kZbvMostSide))
+    fail(argv[1], "pitch: is too small: the tree is thousands of samples wide");
   for (uint32_t v = 0; v < count; ++v) {
     views[v].x0 = -0.5f * (float)(job.facts.view_width - 1) * pitch;
     views[v].y0 = -0.5f * (float)(job.facts.view_height - 1) * pitch;
   }
-  make_room(&work);
+  make_room(&work, argv[1]);
   begin_phase(kZbvNormals);
   describe_triangles(&work.tree, work.attributes);
   make_facts(&work, count, pitch, &facts);
@@ -176,7 +177,7 @@ int main(int argc, char** argv) {
   for (uint32_t v = 0; v < count; ++v) {
     draw_view(&work, views + v, pitch);
     begin_phase(kZbvWrite);
-    write_layers(&work.layers, work.plane, &to);
+    write_layers(&work.layers, work.planes, &to);
   }
   finish_output(&to, &facts, sizeof facts);
   return 0;

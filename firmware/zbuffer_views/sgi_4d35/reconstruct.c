@@ -32,7 +32,8 @@ static void frame_of(const float* direction, double frame[9]) {
   for (int i = 0; i < 9; ++i) frame[i] = rows[i];
 }
 
-/* The light's picture holds the cylinders of all trees, with the margin of the stored views. ASSUMED DEV-152. */
+/* The light's picture holds the cylinders of all trees, with the margin of the stored views. ASSUMED DEV-152.
+ */
 static struct screen light_screen(const struct work* work, const struct zbv_frame* frame) {
   const struct zbv_job* job = &work->job.facts;
   const double radius = work->views.facts.radius, half_height = work->views.facts.half_height;
@@ -159,8 +160,8 @@ int main(int argc, char** argv) {
     if (job->shadows) draw_light(&work, frame);
     begin_phase(kZbvShade);
     work.picture.facts.light_scale = job->shadows ? (float)work.sun.scale : 0;
-    shade(&work.shading, frame, &work.seen, job->shadows ? &work.sun : NULL, job->shadows ? &work.light : NULL,
-          &work.picture);
+    shade(&work.shading, frame, &work.seen, job->shadows ? &work.sun : NULL,
+          job->shadows ? &work.light : NULL, &work.picture);
     begin_phase(kZbvWrite);
     write_picture(&work.picture, &to);
   }

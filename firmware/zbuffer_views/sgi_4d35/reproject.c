@@ -103,9 +103,9 @@ ALWAYS_INLINE void warp_row(const struct row* r, const struct warp* w, const str
 
 #define ZBV_KINDS(kind) \
   kind(0) kind(1) kind(2) kind(3) kind(4) kind(5) kind(6) kind(7) kind(8) kind(10) kind(12) kind(14)
-#define ZBV_ROW_OF(kind)                                                                                     \
-  static void warp_row_##kind(const struct row* r, const struct warp* w, const struct target* to) {         \
-    warp_row(r, w, to, kind);                                                                                \
+#define ZBV_ROW_OF(kind)                                                                            \
+  static void warp_row_##kind(const struct row* r, const struct warp* w, const struct target* to) { \
+    warp_row(r, w, to, kind);                                                                       \
   }
 #define ZBV_ENTRY_OF(kind) [kind] = warp_row_##kind,
 ZBV_KINDS(ZBV_ROW_OF)
@@ -120,8 +120,14 @@ void reproject(const struct zbv_views* facts, const struct zbv_view* view, const
             (warp->skip_empty ? kSkip : 0) | (to->attributes ? 0 : kDepthOnly)];
   const uint32_t samples = facts->width * facts->height;
   for (uint32_t layer = 0; layer < facts->layers; ++layer, planes += kZbvSampleBytes * samples) {
-    struct row r = {(const float*)planes,   planes + 4 * samples,     planes + 5 * samples,
-                    planes + 6 * samples, (int32_t)facts->width, view->x0, 0, facts->pitch};
+    struct row r = {(const float*)planes,
+                    planes + 4 * samples,
+                    planes + 5 * samples,
+                    planes + 6 * samples,
+                    (int32_t)facts->width,
+                    view->x0,
+                    0,
+                    facts->pitch};
     for (uint32_t j = 0; j < facts->height; ++j) {
       r.y = view->y0 + (float)(int32_t)j * facts->pitch;
       warp_one(&r, warp, to);

@@ -9,8 +9,8 @@
 enum {
   kFractionBits = 8,
   kUnit = 1 << kFractionBits,
-  kGuard = 5000 * kUnit, /* where corners may lie: sums of an edge's products with a fraction stay below 2^31 */
-  kOutside = -0x7FFFFFFF /* x of a corner that lies beyond */
+  kGuard =
+      5000 * kUnit /* where corners may lie: sums of an edge's products with a fraction stay below 2^31 */
 };
 
 struct corner {
@@ -88,9 +88,11 @@ static inline int32_t most(int32_t a, int32_t b) { return a > b ? a : b; }
 
 /* Calls `span` for what a triangle covers of width * height samples: a sample on a left edge or at the lower
  * end belongs to it, one on a right edge or at the upper end does not. Corners lie within the guard. */
-static inline __attribute__((always_inline)) void scan_triangle(const struct corner* a, const struct corner* b,
+static inline __attribute__((always_inline)) void scan_triangle(const struct corner* a,
+                                                                const struct corner* b,
                                                                 const struct corner* c, int32_t width,
-                                                                int32_t height, span_function* span, void* to) {
+                                                                int32_t height, span_function* span,
+                                                                void* to) {
   order_by_y(&a, &b);
   order_by_y(&b, &c);
   order_by_y(&a, &b);

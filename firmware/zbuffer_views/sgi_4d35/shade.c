@@ -1,7 +1,5 @@
 #include "firmware/zbuffer_views/sgi_4d35/shade.h"
 
-#include "firmware/zbuffer_views/sgi_4d35/rounding.h"
-
 void make_angles(struct angles* angles) {
   for (long b = 0; b < 256; ++b) {
     angles->sine_latitude[b] = (float)-turn_cosine(b, 510);
@@ -39,7 +37,8 @@ static void make_ray(struct ray* ray, const double* m, const struct zbv_job* job
   for (int i = 0; i < 3; ++i) {
     ray->step[i] = (float)(m[3 * i] * pixel);
     ray->row_step[i] = (float)(m[3 * i + 1] * pixel);
-    ray->row[i] = (float)(start[i] - (m[3 * i] * (double)job->centre_x + m[3 * i + 1] * (double)job->centre_y) * pixel);
+    ray->row[i] =
+        (float)(start[i] - (m[3 * i] * (double)job->centre_x + m[3 * i + 1] * (double)job->centre_y) * pixel);
   }
 }
 
@@ -84,7 +83,8 @@ static void make_to_light(struct to_light* to, const struct zbv_job* job, const 
   to->epsilon = (float)((double)job->epsilon / light->scale);
 }
 
-static inline int in_shadow(const struct to_light* t, const struct target* buffer, float depth, int perspective) {
+static inline int in_shadow(const struct to_light* t, const struct target* buffer, float depth,
+                            int perspective) {
   float p[3];
   for (int i = 0; i < 3; ++i)
     p[i] = perspective ? t->ray.at[i] * depth + t->offset[i] : t->ray.at[i] + depth * t->depth[i];

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "firmware/zbuffer_views/sgi_4d35/reproject.h"
+#include "firmware/zbuffer_views/sgi_4d35/rounding.h"
 
 /* Finished pictures: planes with the highest row first. */
 struct picture {
@@ -34,10 +35,13 @@ struct shading {
   int late; /* leaves have their sides chosen here */
 };
 
-/* V8. `buffer` is what the light sees through `light`, NULL without shadows; counts covered and shadowed pixels.
+/* V8. `buffer` is what the light sees through `light`, NULL without shadows; counts covered and shadowed
+ * pixels.
  */
 void shade(const struct shading* how, const struct zbv_frame* frame, const struct target* seen,
            const struct screen* light, const struct target* buffer, struct picture* to);
 
 /* c * shade, rounded, for 0 <= shade <= 1. */
-uint8_t shaded(float channel, float shade);
+static inline uint8_t shaded(float channel, float shade) {
+  return (uint8_t)floor_to_int(channel * shade + 0.5f);
+}

@@ -34,8 +34,7 @@ struct input open_input(const char* path, uint32_t magic, const char* what, stru
   if (head->version != kZbvVersion)
     fail(path, "has version %u, this program reads version %d", head->version, kZbvVersion);
   if (head->bytes > from.bytes) fail(path, "is truncated: %u of %u bytes", from.bytes, head->bytes);
-  if (head->bytes < from.bytes)
-    fail(path, "has %u bytes where its head says %u", from.bytes, head->bytes);
+  if (head->bytes < from.bytes) fail(path, "has %u bytes where its head says %u", from.bytes, head->bytes);
   return from;
 }
 
@@ -82,8 +81,7 @@ void finish_output(const struct output* to, const void* head, size_t head_bytes)
 }
 
 void check_range(const char* file, const char* key, uint32_t value, uint32_t low, uint32_t high) {
-  if (value < low || value > high)
-    fail(file, "%s: is %u, allowed are %u to %u", key, value, low, high);
+  if (value < low || value > high) fail(file, "%s: is %u, allowed are %u to %u", key, value, low, high);
 }
 
 void check_finite(const char* file, const char* what, const float* values, size_t count) {

@@ -15,7 +15,8 @@ static void check_facts(const char* path, const struct zbv_views* facts) {
   if (facts->threshold < 0 || facts->radius < 0 || facts->half_height < 0)
     fail(path, "threshold, radius or half height: is below 0");
   const uint32_t wanted = all_views(facts->bands);
-  if (facts->views != wanted) fail(path, "has %u views where %u bands have %u", facts->views, facts->bands, wanted);
+  if (facts->views != wanted)
+    fail(path, "has %u views where %u bands have %u", facts->views, facts->bands, wanted);
 }
 
 /* The directions' order and number are the programs' own; only that it is theirs is looked at. */
@@ -77,14 +78,15 @@ struct chosen choose_views(const struct zbv_views* facts, const double direction
   struct chosen chosen = {0, {0}};
   const double across = sqrt(direction[0] * direction[0] + direction[2] * direction[2]);
   const double theta = atan2(across, direction[1]);
-  double phi = atan2(direction[0], direction[2]);
+  double phi = across > 0 ? atan2(direction[0], direction[2]) : 0;
   if (phi < 0) phi += 2 * kPi;
   uint32_t band = (uint32_t)(int)(theta * facts->bands / kPi);
   if (band >= facts->bands) band = facts->bands - 1;
   uint32_t first = 0;
   for (uint32_t k = 0; k < band; ++k) first += circle_views(facts->bands, k);
   for (uint32_t k = band; k <= band + 1; ++k) {
-    const uint32_t count = circle_views(facts->bands, k), j = (uint32_t)(int)(phi * count / (2 * kPi)) % count;
+    const uint32_t count = circle_views(facts->bands, k),
+                   j = (uint32_t)(int)(phi * count / (2 * kPi)) % count;
     add_view(&chosen, first + j);
     add_view(&chosen, first + (j + 1) % count);
     first += count;
@@ -97,8 +99,7 @@ static uint8_t* room_for_view(struct views* views) {
   if (room) return room;
   uint32_t oldest = views->facts.views;
   for (uint32_t v = 0; v < views->facts.views; ++v)
-    if (views->planes[v] &&
-        (oldest == views->facts.views || views->last_use[v] < views->last_use[oldest]))
+    if (views->planes[v] && (oldest == views->facts.views || views->last_use[v] < views->last_use[oldest]))
       oldest = v;
   if (oldest == views->facts.views) fail(views->file.path, "memory does not hold one view");
   room = views->planes[oldest];
