@@ -141,7 +141,7 @@ struct ProgramImage {
 /// A call of the program that marks a point of its run (service_block_isa.h): `cycles` and `instructions` of the run
 /// before the mark's store.
 struct ProgramMark {
-  std::uint32_t number = 0, label = 0;
+  std::uint32_t number = 0, label = 0;  ///< of the call (0x7000 up) and its argument
   std::uint64_t instructions = 0;
   std::int64_t cycles = 0;
 };

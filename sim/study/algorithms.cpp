@@ -17,6 +17,7 @@
 #include "sim/study/equalisation.h"
 #include "sim/study/igc_programs.h"
 #include "sim/study/primitives.h"
+#include "sim/study/zbuffer_views.h"
 
 namespace dendro::study {
 std::int64_t integer_of(const config::ParameterSet& parameters, const std::string& key) {
@@ -193,6 +194,7 @@ const std::vector<Algorithm>& algorithms() {
         "colouring"}},
       raster_primitives_algorithm(),
       equalisation_algorithm(),
+      zbuffer_views_algorithm(),
   };
   return list;
 }
@@ -226,6 +228,7 @@ std::vector<Firmware> firmware_list() {
   }
   for (Firmware& firmware : raster_primitives_firmware()) list.push_back(std::move(firmware));
   list.push_back(equalisation_firmware());
+  for (Firmware& firmware : zbuffer_views_firmware()) list.push_back(std::move(firmware));
   return list;
 }
 

@@ -95,7 +95,7 @@ ZBV_SIZE(zbv_triangle, 4);
 
 /* A set of views: this, then `colours` of zbv_colour, `views` of zbv_view, then the views' planes: per view,
  * per layer z (floats), latitude, longitude, colour (bytes), each of width * height, row-major, the lowest
- * row first. */
+ * row first. ASSUMED DEV-155. */
 struct zbv_views {
   struct zbv_head head;
   uint32_t bands, views, layers, width, height, colours;
@@ -123,7 +123,7 @@ struct zbv_job {
   struct zbv_head head; /* digest: of the tree that is wanted */
   uint32_t bands, layers, view_width, view_height;
   uint32_t rule, leaf_side;
-  float pitch; /* 0: from the tree, V3 */
+  float pitch; /* 0: from the tree, V3, with a margin of 2 %. ASSUMED DEV-154 */
   float threshold;
 
   uint32_t width, height, projection;
@@ -134,7 +134,8 @@ struct zbv_job {
   uint32_t background;      /* 0x00RRGGBB */
   uint32_t shadows;         /* 0 or 1 */
   uint32_t light_width, light_height;
-  float light_scale; /* light pixels per world unit; 0: so that all trees fit */
+  float light_scale; /* light pixels per world unit; 0: so that all trees' cylinders fit with a margin of 2 %.
+                        ASSUMED DEV-152 */
   float epsilon;     /* light pixels */
   uint32_t options;  /* zbv_options */
   uint32_t trees, frames;

@@ -3,7 +3,7 @@
 #include "firmware/zbuffer_views/sgi_4d35/views.h"
 
 /* Where samples go: a z-buffer, and for a camera the attributes of its pixels (latitude << 16 | longitude <<
- * 8 | colour). Rows from the lowest up. */
+ * 8 | colour). Rows from the lowest up. ASSUMED DEV-153. */
 struct target {
   int32_t width, height;
   float** rows;         /* the first z of each row */

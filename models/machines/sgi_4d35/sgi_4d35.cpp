@@ -111,6 +111,7 @@ MachineType sgi_4d35_type() {
     throw UserError("", 0, "sgi-4d35",
                     "runs programs only (dendro exec sgi-4d35 PROGRAM.elf); this command cannot drive it");
   };
+  type.check = [](const config::ParameterSet& parameters, Level) { resolve(parameters); };
   type.exec = [](const config::ParameterSet& parameters, Level level, const ProgramImage& image,
                  service_block::Services& services, std::uint64_t limit, const MachineOptions& options) {
     const Spec spec = resolve(parameters);
