@@ -81,6 +81,8 @@ class Core {
   State s_;
   Fault fault_;
   bool leave_ = false;   ///< run_plain() ends after this word: interrupts or the port want to be looked at
+  bool merge_ = false;   ///< lwl or lwr merges into the load before it, whose value is `merge_value_`
+  std::uint32_t merge_value_ = 0;
   bool refetch_ = true;  ///< the page of the program counter must be found anew
   Maps maps_[2];
   std::map<std::uint32_t, std::unique_ptr<std::array<Decoded, kPageWords>>> code_;  ///< by physical page

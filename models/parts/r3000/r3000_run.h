@@ -23,7 +23,7 @@ std::uint64_t Core<Port>::run(std::uint64_t budget) {
 }
 
 /// One word in the slot of a load that it may read: it sees the register's old value, and what it writes
-/// there wins.
+/// there wins. If it is itself a load whose result waits, the word behind it sees the first one's.
 template <class Port>
 void Core<Port>::run_after_load() {
   const unsigned reg = s_.pending_reg;
@@ -32,11 +32,12 @@ void Core<Port>::run_after_load() {
   const Decoded* page = fetch_page(s_.pc);
   const Decoded d = page ? page[s_.pc >> 2 & (kPageWords - 1)] : Decoded();
   refetch_ = true;
-  const bool merges = (d.op == Op::kLwl || d.op == Op::kLwr) && d.rt == reg;
-  if (merges) s_.r[reg] = value;
+  merge_ = (d.op == Op::kLwl || d.op == Op::kLwr) && d.rt == reg;
+  merge_value_ = value;
   const std::uint64_t exceptions = s_.exceptions;
   run_plain(1);
-  if (!merges && (s_.exceptions != exceptions || destination_of(d) != reg)) s_.r[reg] = value;
+  merge_ = false;
+  if (s_.exceptions != exceptions || destination_of(d) != reg || s_.pending_reg == reg) s_.r[reg] = value;
 }
 
 template <class Port>
