@@ -14,10 +14,13 @@ namespace {
 constexpr std::uint32_t kProgram = 0x80010800;  // not at the vectors' indices of the cache
 
 class Stop : public service_block::Services {
+ public:
   service_block::CallResult call(std::uint32_t, const std::array<std::uint32_t, 4>&,
-                                 std::vector<std::uint8_t>&) override {
+                                 std::vector<std::uint8_t>& memory) override {
+    digest = digest_of(memory);
     return {0, false, true};
   }
+  std::uint64_t digest = 0;
 };
 
 void put(int file, const void* bytes, std::size_t count) {
@@ -65,6 +68,7 @@ void run_and_send(int file, Level level, const Spec& spec, const ProgramImage& i
   put_number(file, result.instructions);
   put_number(file, result.stopped);
   put(file, &state, sizeof state);
+  put_number(file, services.digest);
   std::string counters;
   for (const UnitStats& unit : result.units)
     for (const auto& [name, value] : unit.values)
@@ -81,6 +85,7 @@ Ran receive(int file) {
   ran.instructions = get_number(file);
   ran.stopped = get_number(file) != 0;
   get(file, &ran.state, sizeof ran.state);
+  ran.memory_digest = get_number(file);
   std::string text(get_number(file), ' ');
   get(file, text.data(), text.size());
   for (std::size_t at = 0; at < text.size();) {
@@ -107,11 +112,22 @@ std::int64_t Ran::clock_of(std::uint32_t pc, std::size_t n) const {
   return -1;
 }
 
-Ran run_words(Level level, const Spec& spec, const Memory& memory, std::uint32_t start, std::uint64_t limit) {
+ProgramImage image_of(const Memory& memory, std::uint32_t start) {
   ProgramImage image;
   for (const auto& [address, words] : memory)
     if (!words.empty()) image.chunks.push_back({address & 0x1FFFFFFF, bytes_of(words)});
   image.start = start;
+  return image;
+}
+
+std::uint64_t digest_of(const std::vector<std::uint8_t>& bytes) {
+  std::uint64_t digest = 0xCBF29CE484222325;  // FNV-1a
+  for (const std::uint8_t byte : bytes) digest = (digest ^ byte) * 0x100000001B3;
+  return digest;
+}
+
+Ran run_words(Level level, const Spec& spec, const Memory& memory, std::uint32_t start, std::uint64_t limit) {
+  const ProgramImage image = image_of(memory, start);
   int ends[2];
   if (pipe(ends) != 0) throw std::runtime_error("pipe");
   std::fflush(nullptr);

@@ -62,10 +62,14 @@ struct Ran {
   std::uint64_t cycles = 0, instructions = 0;
   bool stopped = false;
   r3000::State state;
+  std::uint64_t memory_digest = 0;  ///< of main memory at the call that stopped it
 
   /// When the word at `pc` left MEM for the n-th time, from 0; -1: it did not.
   std::int64_t clock_of(std::uint32_t pc, std::size_t n) const;
 };
+
+ProgramImage image_of(const Memory& memory, std::uint32_t start);
+std::uint64_t digest_of(const std::vector<std::uint8_t>& bytes);
 
 /// Runs what is in memory from `start` on, at most `limit` words; a store to the service block's first word
 /// ends it.
