@@ -181,7 +181,7 @@ class Preparation {
     for (const StreamHull& hull : result_.hulls) {
       const auto fronts = std::count_if(hull.planes.begin(), hull.planes.end(),
                                         [](const StreamPlane& p) { return p.kind == PlaneKind::kFront; });
-      if (fronts >= 1 << kIndexBits)
+      if (fronts > 1 << kIndexBits)
         throw UserError(scene_.file, 0, "object",
                         fmt::format("{} front planes are more than {} bits can tell apart", fronts, kIndexBits));
     }

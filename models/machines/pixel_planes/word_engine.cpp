@@ -199,15 +199,17 @@ bool WordEngine::touches_scratch_only(const Batch& batch, const Square& square) 
         break;
       case MacroKind::kRaise:
       case MacroKind::kRaiseScratch:
+      case MacroKind::kRaiseIndex:
       case MacroKind::kLower:
       case MacroKind::kLowerScratch: {
         if (!scratch(op.field[0]) || !scratch(op.field[1])) return false;
         const std::int64_t most = all_ones(macro.fields[0].bits);
         const Interval t = depth_of(macro, square);
         const std::int64_t low = std::clamp<std::int64_t>(t.low, 0, most), high = std::clamp<std::int64_t>(t.high, 0, most);
-        const bool raise = macro.kind == MacroKind::kRaise || macro.kind == MacroKind::kRaiseScratch;
+        const bool raise = macro.kind != MacroKind::kLower && macro.kind != MacroKind::kLowerScratch;
         *f0 = raise ? Interval{std::max(f0->low, low), std::max(f0->high, high)}
                     : Interval{std::min(f0->low, low), std::min(f0->high, high)};
+        if (op.field[1] >= 0) bounds[static_cast<std::size_t>(op.field[1])] = {0, all_ones(macro.fields[1].bits)};
         break;
       }
       case MacroKind::kKill: {
@@ -237,7 +239,6 @@ bool WordEngine::touches_scratch_only(const Batch& batch, const Square& square) 
       case MacroKind::kPaintIndex:
         if ((unflagged >> op.field[1] & 1) == 0) return false;
         continue;
-      default: return false;
     }
     if (op.field[0] >= 0) unflagged &= ~(1u << op.field[0]);
     if (op.field[1] >= 0) unflagged &= ~(1u << op.field[1]);
