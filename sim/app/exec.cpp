@@ -36,6 +36,23 @@ std::uint32_t number(const std::string& text, const std::string& whole) {
   return static_cast<std::uint32_t>(value);
 }
 
+/// What a program that has standard output for itself leaves on the other one.
+void print_run(const study::ExecOutput& output) {
+  const stats::RunObject& run = output.object;
+  const double million = std::max(run.host.seconds, 1e-9) * 1e6;
+  const std::string time =
+      run.has_time()
+          ? fmt::format("{} cycles = {}, {:.0f} million cycles/s", stats::grouped(run.cycles),
+                        stats::readable_seconds(run.seconds), static_cast<double>(run.cycles) / million)
+          : fmt::format("{:.0f} million/s, no time at this level", static_cast<double>(run.instructions) / million);
+  fmt::print(stderr, "{}:{} level {}: {} instructions in {}, {}, exit code {}\n{}", run.machine, run.preset,
+             run.level, stats::grouped(static_cast<std::int64_t>(run.instructions)),
+             stats::readable_seconds(run.host.seconds), time, output.exit_code, study::cause_text(run));
+  for (const stats::PhaseRow& phase : run.phases)
+    fmt::print(stderr, "phase {}: {} cycles\n", phase.name, stats::grouped(phase.cycles));
+  if (!output.profile.empty()) fmt::print(stderr, "{}", study::profile_text(output.profile, run.cycles));
+}
+
 int execute(const study::Catalogue& catalogue, Options options) {
   for (const std::string& dump : options.dumps) {
     const auto colon = dump.find(':');
@@ -56,13 +73,7 @@ int execute(const study::Catalogue& catalogue, Options options) {
       fmt::print("scratch[{}] = 0x{:08x}\n", options.exec.dumps[i].first + n, output.dumps[i][n]);
   const stats::RunObject& run = output.object;
   if (output.prints_output) {  // standard output is the program's
-    if (!options.quiet)
-      fmt::print(
-          stderr,
-          "{}:{} level {}: {} instructions in {}, {:.0f} million/s, no time at this level, exit code {}\n",
-          run.machine, run.preset, run.level, stats::grouped(static_cast<std::int64_t>(run.instructions)),
-          stats::readable_seconds(run.host.seconds),
-          static_cast<double>(run.instructions) / 1e6 / std::max(run.host.seconds, 1e-9), output.exit_code);
+    if (!options.quiet) print_run(output);
     json.commit(study::exec_json(output));
     return output.exit_code;
   }
@@ -97,6 +108,7 @@ void add_exec(CLI::App& app, const study::Catalogue& catalogue, Action& action) 
       ->check(some_text());
   command->add_option("--progress", o->progress, "auto, on or off")
       ->check(CLI::IsMember({"auto", "on", "off"}));
+  command->add_flag("--profile", o->exec.profile, "ELF files, level cycle: cycles by function");
   command->add_flag("--quiet", o->quiet, "print no summary");
   add_waveform(*command, machine);
   command->callback(
