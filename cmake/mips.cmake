@@ -14,29 +14,36 @@ endforeach()
 set(MIPS_FLAGS -march=r3000 -mabi=32 -mfp32 -mno-abicalls -fno-pic -fno-pie -G0 -ffreestanding -fno-stack-protector
   -fno-tree-loop-distribute-patterns -ffp-contract=off -fno-asynchronous-unwind-tables -Wall -Wextra -Wno-missing-field-initializers)
 set(MIPS_OPTIMISE -O2)
+set(MIPS_VARIANT "")
 
-# dendro_mips_objects(OUT FILES...): compiles C and assembly; OUT names the list of objects.
+# dendro_mips_objects(OUT FILES...): compiles C and assembly; OUT names the list of objects. Other flags in MIPS_OPTIMISE need another
+# suffix in MIPS_VARIANT.
 function(dendro_mips_objects out)
   set(objects)
   foreach(source IN LISTS ARGN)
     file(RELATIVE_PATH name ${PROJECT_SOURCE_DIR} ${source})
-    set(object ${PROJECT_BINARY_DIR}/mips/${name}.o)
+    set(object ${PROJECT_BINARY_DIR}/mips/${name}${MIPS_VARIANT}.o)
     get_filename_component(folder ${object} DIRECTORY)
     file(MAKE_DIRECTORY ${folder})
     if(NOT TARGET mips:${name})
       add_custom_command(OUTPUT ${object}
         COMMAND ${MIPS_GCC} ${MIPS_FLAGS} ${MIPS_OPTIMISE} -I${PROJECT_SOURCE_DIR} -MD -MF ${object}.d -c ${source} -o ${object}
-        DEPENDS ${source} DEPFILE ${object}.d COMMENT "mips ${name}" VERBATIM)
+        DEPENDS ${source} DEPFILE ${object}.d COMMENT "mips ${name}${MIPS_VARIANT}" VERBATIM)
     endif()
     list(APPEND objects ${object})
   endforeach()
   set(${out} ${objects} PARENT_SCOPE)
 endfunction()
 
-# dendro_mips_program(TARGET FILES...): links FILES with firmware/lib/mips to mips/TARGET.elf (mapped, at 0x00400000) and
+# dendro_mips_program(TARGET FILES...): links FILES (sources, or objects that were compiled before) with firmware/lib/mips to mips/TARGET.elf (mapped, at 0x00400000) and
 # mips/TARGET-unmapped.elf (the same objects at 0x80400000) in the build tree.
 function(dendro_mips_program target)
-  dendro_mips_objects(objects ${ARGN})
+  set(sources ${ARGN})
+  list(FILTER sources EXCLUDE REGEX "[.]o$")
+  dendro_mips_objects(objects ${sources})
+  set(compiled ${ARGN})
+  list(FILTER compiled INCLUDE REGEX "[.]o$")
+  list(APPEND objects ${compiled})
   set(script ${PROJECT_SOURCE_DIR}/firmware/lib/mips/program.ld)
   set(outputs)
   foreach(link mapped:0x00400000: unmapped:0x80400000:-unmapped)

@@ -10,7 +10,7 @@ ROOT = pathlib.Path(__file__).resolve().parent.parent
 SOURCES = ROOT / "firmware/half_space/pixel_planes"
 COUNTS = {"gap": 0, "fraction": 10, "guard": 2, "guard - 1": 1, "depth_bits": 16}
 COLOURS = {"tree": "#9ecae1", "wait": "#e5e5e5", "flags": "#fdae6b", "write": "#a1d99b"}
-STEP, HEIGHT, LEFT = 12, 34, 150
+STEP, HEIGHT, LEFT = 12, 34, 170
 
 
 def words(program, text):
@@ -38,22 +38,35 @@ def row(y, name, parts):
         if clocks > 1:
             svg += f'<text x="{x + clocks * STEP / 2}" y="{y + 22}" text-anchor="middle">{clocks}</text>\n'
         at += clocks
-    return svg + f'<text x="{LEFT + at * STEP + 6}" y="{y + 22}" font-weight="bold">{at}</text>\n'
+    beside = 60 if 57 < at <= 60 else at  # not on the paper's line
+    return svg + f'<text x="{LEFT + beside * STEP + 6}" y="{y + 22}" font-weight="bold">{at}</text>\n'
+
+
+def scale(top, bottom):
+    """Clocks from 0 to 60; 60 is what FG86 6.3 says."""
+    svg = ""
+    for clock in range(0, 61, 10):
+        x = LEFT + clock * STEP
+        line = 'stroke="#d62728" stroke-dasharray="5 4"' if clock == 60 else 'stroke="#ccc"'
+        svg += (f'<line x1="{x}" y1="{top}" x2="{x}" y2="{bottom}" {line}/>\n'
+                f'<text x="{x}" y="{bottom + 16}" text-anchor="middle" fill="#555">{clock}</text>\n')
+    return svg + (f'<text x="{LEFT + 60 * STEP}" y="{top - 5}" text-anchor="middle" fill="#d62728">FG86</text>\n'
+                  f'<text x="4" y="{bottom + 16}" fill="#555">clock</text>\n')
 
 
 def main():
     one, two = (SOURCES / name for name in ("half_space.igc", "two_ports.igc"))
     rows = [("two streams", words("front_plane", one.read_text())),
-            ("scratch copy", words("front_plane_scratch", two.read_text()))]
-    svg = "".join(row(20 + i * 60, name, parts) for i, (name, parts) in enumerate(rows))
-    legend = [("tree", "compared with the tree"), ("write", "written to memory"), ("flags", "registers of the pixel"),
-              ("wait", "tree bits that only pass")]
+            ("scratch copy, two ports", words("front_plane_scratch", two.read_text()))]
+    svg = scale(24, 136) + "".join(row(36 + i * 54, name, parts) for i, (name, parts) in enumerate(rows))
+    legend = [("wait", "tree bits that only pass"), ("tree", "compared with the tree"), ("write", "written to memory"),
+              ("flags", "registers of the pixel")]
     for i, (kind, text) in enumerate(legend):
-        x = LEFT + i * 180
-        svg += f'<rect x="{x}" y="140" width="14" height="14" fill="{COLOURS[kind]}" stroke="#555"/>\n'
-        svg += f'<text x="{x + 20}" y="152">{text}</text>\n'
+        x = LEFT + i * 186
+        svg += f'<rect x="{x}" y="170" width="14" height="14" fill="{COLOURS[kind]}" stroke="#555"/>\n'
+        svg += f'<text x="{x + 20}" y="182">{text}</text>\n'
     (ROOT / "docs/pictures/plane-clocks.svg").write_text(
-        f'<svg xmlns="http://www.w3.org/2000/svg" width="{LEFT + 62 * STEP + 40}" height="170" '
+        f'<svg xmlns="http://www.w3.org/2000/svg" width="{LEFT + 62 * STEP + 24}" height="196" '
         f'font-family="sans-serif" font-size="13">\n<rect width="100%" height="100%" fill="white"/>\n{svg}</svg>\n')
 
 

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "models/parts/host/host_port.h"
+#include "sim/base/check.h"
 
 namespace dendro {
 
@@ -69,6 +70,42 @@ class Job {
   /// Facts of the prepared scene that tables need, by name: "planes.front", "planes.back", "planes.edge_on",
   /// ...
   virtual std::vector<std::pair<std::string, double>> facts() const = 0;
+};
+
+/// A machine with an operating system of its own, as a job sees it: files by name, and programs that read and write them.
+class Workstation {
+ public:
+  virtual ~Workstation() = default;
+
+  /// A file of the workstation, empty until somebody writes it.
+  virtual std::vector<std::uint8_t>& file(const std::string& name) = 0;
+
+  /// Runs a program to its end. Untimed it runs at `function` whatever the level of the run, and its phases take no time.
+  /// Throws UserError with what it said when it ends with anything but 0.
+  virtual void run(const std::string& program, const std::vector<std::string>& arguments, bool timed) = 0;
+
+  /// One finished picture of a sequence, 8-bit RGB, rows top down.
+  virtual void show(int width, int height, const std::vector<std::uint8_t>& rgb) = 0;
+
+  /// Puts a file into the folder of the run's results.
+  virtual void keep(const std::string& name, const std::vector<std::uint8_t>& bytes) = 0;
+};
+
+/// A job for a machine whose programs are files: it has no host computer.
+class ProgramJob : public Job {
+ public:
+  /// What the user of the workstation does. Called once.
+  virtual void run_programs(Workstation& workstation) = 0;
+
+  void run(HostPort&) final { DENDRO_CHECK(false, "this machine has no host computer"); }
+
+  /// The phase that begins with mark `label` (call 0x7002); empty: none.
+  virtual std::string phase_name(std::uint32_t label) const = 0;
+
+  /// Size and bytes of the picture that compare() looks at, 8-bit RGB, rows top down; after run().
+  virtual int width() const = 0;
+  virtual int height() const = 0;
+  virtual const std::vector<std::uint8_t>& rgb() const = 0;
 };
 
 }  // namespace dendro

@@ -7,6 +7,7 @@
 #include "firmware/half_space/reference/faces_reference.h"
 #include "firmware/half_space/reference/reference.h"
 #include "sim/base/check.h"
+#include "sim/scene/psnr.h"
 
 namespace dendro::half_space {
 namespace {
@@ -24,7 +25,7 @@ class PlanesJob : public Job {
     const FacesReference wanted = render_faces_reference(prepared_);
     const std::vector<std::uint32_t> nearest = nearest_of(machine);
     ErrorReport report;
-    report.psnr_db = psnr(wanted.rgb, machine.rgb);
+    report.psnr_db = scene::psnr(wanted.rgb, machine.rgb);
     std::int64_t other_face = 0;
     for (std::size_t i = 0; i < nearest.size(); ++i) {
       const bool covered = nearest[i] != static_cast<std::uint32_t>(prepared_.maxdepth);
@@ -46,12 +47,9 @@ class PlanesJob : public Job {
   std::vector<Layer> layers(const MachineView& machine) const override {
     const std::vector<std::uint32_t> nearest = nearest_of(machine);
     const FacesReference wanted = render_faces_reference(prepared_);
-    std::vector<Layer> layers;
-    for (const char* name : {"R", "G", "B", "Z", "reference.Z", "reference.hull", "reference.face"})
-      layers.push_back({name, std::vector<float>(nearest.size())});
+    std::vector<Layer> layers =
+        lib::picture_layers(machine, nearest, {"reference.Z", "reference.hull", "reference.face"});
     for (std::size_t i = 0; i < nearest.size(); ++i) {
-      for (std::size_t c = 0; c < 3; ++c) layers[c].values[i] = static_cast<float>(machine.rgb[3 * i + c]) / 255.0f;
-      layers[3].values[i] = static_cast<float>(nearest[i]);
       layers[4].values[i] = static_cast<float>(wanted.depth[i]);
       layers[5].values[i] = static_cast<float>(wanted.hull[i] + 1);
       layers[6].values[i] = static_cast<float>(wanted.face[i] + 1);
@@ -61,11 +59,7 @@ class PlanesJob : public Job {
 
   std::vector<std::string> input_files() const override { return prepared_.files; }
 
-  std::vector<FirmwareImage> firmware() const override {
-    FirmwareImage image{programs_.name, programs_.sha256, {}};
-    for (const auto& [name, entry] : programs_.entries) image.symbols["phase_" + entry.phase + "." + name] = entry.at;
-    return {image};
-  }
+  std::vector<FirmwareImage> firmware() const override { return {lib::firmware_image(programs_)}; }
 
   std::vector<std::pair<std::string, double>> facts() const override {
     std::size_t visible = 0, unbounded = 0, most_guard = 0;
@@ -90,12 +84,7 @@ class PlanesJob : public Job {
 
  private:
   std::vector<std::uint32_t> nearest_of(const MachineView& machine) const {
-    const auto mask = static_cast<std::uint32_t>(prepared_.maxdepth);
-    std::vector<std::uint32_t> nearest;
-    for (int y = 0; y < prepared_.height; ++y)
-      for (int x = 0; x < prepared_.width; ++x)
-        nearest.push_back(machine.peek(static_cast<std::uint32_t>(y * site_.width + x), prepared_.layout.nearest) & mask);
-    return nearest;
+    return lib::pixel_field(machine, site_, prepared_.layout.nearest, prepared_.layout.depth_bits);
   }
 
   PreparedPlanes prepared_;

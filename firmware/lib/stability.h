@@ -2,11 +2,14 @@
 
 #include <cstdint>
 #include <functional>
+#include <map>
+#include <memory>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "firmware/job.h"
+#include "firmware/lib/pixel_planes/igc_driver.h"
 #include "firmware/lib/rds3000/rds_driver.h"
 #include "models/parts/host/host_port.h"
 
@@ -48,10 +51,38 @@ struct Result {
   std::vector<Curve> curves;
 };
 
+/// How the lines of a pixel array's tree are driven.
+struct TreeDrive {
+  bool masked = true;
+  unsigned gap = 0;            ///< leading zeros of a stream
+  int a_late = 0, b_late = 0;  ///< clocks that a line lags its right skew; negative: leads
+};
+
+/// A·x + B·y + C, of which `bits` bits are looked at.
+struct TreeStream {
+  std::int64_t a = 0, b = 0, c = 0;
+  unsigned bits = 0;
+};
+
+struct TreePixel {
+  int x = 0, y = 0;
+};
+
 /// A machine at level `function` for the cases of one algorithm.
 class Rig {
  public:
   virtual ~Rig() = default;
+
+  /// The same machine with other values of some parameters. Throws UserError for impossible ones.
+  virtual std::unique_ptr<Rig> with(const std::map<std::string, std::int64_t>& parameters) const = 0;
+
+  /// Micro-programs by their paths below the repository's root, assembled for a machine that is a pixel array.
+  virtual lib::IgcPrograms igc_programs(const std::vector<std::string>& paths) const = 0;
+
+  /// What the tree of a machine that is a pixel array gives these pixels, clock by clock, for streams back to back: by
+  /// stream and pixel the `bits` bits as a two's complement number.
+  virtual std::vector<std::vector<std::int64_t>> tree(const TreeDrive& drive, const std::vector<TreeStream>& streams,
+                                                      const std::vector<TreePixel>& pixels) const = 0;
 
   /// A microprogram by its path below the repository's root, assembled for the machine.
   virtual lib::ProgramImage program(const std::string& path) const = 0;

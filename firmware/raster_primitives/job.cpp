@@ -6,6 +6,7 @@
 #include "firmware/raster_primitives/host/host_program.h"
 #include "firmware/raster_primitives/reference/reference.h"
 #include "sim/base/check.h"
+#include "sim/scene/psnr.h"
 
 namespace dendro::raster_primitives {
 namespace {
@@ -23,8 +24,9 @@ class PrimitivesJob : public Job {
     DENDRO_CHECK(machine.width == prepared_.width && machine.height == prepared_.height, "the monitor shows {}x{}",
                  machine.width, machine.height);
     const Reference wanted = render_reference(prepared_);
-    const std::vector<std::uint32_t> depth = field(machine, prepared_.layout.depth, prepared_.layout.depth_bits);
-    const std::vector<std::uint32_t> shadow = field(machine, prepared_.layout.seen, prepared_.layout.shadows ? 1 : 0);
+    const std::vector<std::uint32_t> depth = depths(machine);
+    std::vector<std::uint32_t> shadow(depth.size());
+    if (prepared_.layout.shadows) shadow = lib::pixel_field(machine, site_, prepared_.layout.seen, 1);
     ErrorReport report;
     const auto width = static_cast<std::size_t>(prepared_.width);
     double squares = 0, worst_colour = 0, worst_shift = 0, worst_sphere = 0;
@@ -53,7 +55,7 @@ class PrimitivesJob : public Job {
                            std::abs(wanted.depth[i + width] - wanted.depth[i - width]) / 2;
       if (error > kRounding) worst_shift = std::max(worst_shift, (error - kRounding) / slope);
     }
-    if (squares > 0) report.psnr_db = 10 * std::log10(255.0 * 255.0 * 3 * static_cast<double>(depth.size()) / squares);
+    report.psnr_db = scene::psnr(squares, 3 * depth.size());
     report.extra = {{"inner_pixels", static_cast<double>(inner)},
                     {"inner_colour_error", worst_colour},
                     {"inner_depth_error_pixels", worst_shift},
@@ -63,18 +65,11 @@ class PrimitivesJob : public Job {
   }
 
   std::vector<Layer> layers(const MachineView& machine) const override {
-    const std::vector<std::uint32_t> depth = field(machine, prepared_.layout.depth, prepared_.layout.depth_bits);
     const Reference wanted = render_reference(prepared_);
-    std::vector<Layer> layers;
-    for (const char* name :
-         {"R", "G", "B", "Z", "reference.R", "reference.G", "reference.B", "reference.Z", "reference.seen"})
-      layers.push_back({name, std::vector<float>(depth.size())});
-    for (std::size_t i = 0; i < depth.size(); ++i) {
-      for (std::size_t c = 0; c < 3; ++c) {
-        layers[c].values[i] = static_cast<float>(machine.rgb[3 * i + c]) / 255.0f;
-        layers[4 + c].values[i] = static_cast<float>(wanted.rgb[3 * i + c] / 255);
-      }
-      layers[3].values[i] = static_cast<float>(depth[i]);
+    std::vector<Layer> layers = lib::picture_layers(
+        machine, depths(machine), {"reference.R", "reference.G", "reference.B", "reference.Z", "reference.seen"});
+    for (std::size_t i = 0; i < wanted.depth.size(); ++i) {
+      for (std::size_t c = 0; c < 3; ++c) layers[4 + c].values[i] = static_cast<float>(wanted.rgb[3 * i + c] / 255);
       layers[7].values[i] = static_cast<float>(wanted.depth[i]);
       layers[8].values[i] = static_cast<float>(wanted.seen[i] + 1);
     }
@@ -83,11 +78,7 @@ class PrimitivesJob : public Job {
 
   std::vector<std::string> input_files() const override { return prepared_.files; }
 
-  std::vector<FirmwareImage> firmware() const override {
-    FirmwareImage image{programs_.name, programs_.sha256, {}};
-    for (const auto& [name, entry] : programs_.entries) image.symbols["phase_" + entry.phase + "." + name] = entry.at;
-    return {image};
-  }
+  std::vector<FirmwareImage> firmware() const override { return {lib::firmware_image(programs_)}; }
 
   std::vector<std::pair<std::string, double>> facts() const override {
     const auto count = [](auto n) { return static_cast<double>(n); };
@@ -120,13 +111,8 @@ class PrimitivesJob : public Job {
     return number < triangles ? nullptr : &prepared_.spheres[static_cast<std::size_t>(number - triangles)];
   }
 
-  std::vector<std::uint32_t> field(const MachineView& machine, unsigned low, unsigned bits) const {
-    const std::uint32_t mask = (1u << bits) - 1;
-    std::vector<std::uint32_t> values;
-    for (int y = 0; y < prepared_.height; ++y)
-      for (int x = 0; x < prepared_.width; ++x)
-        values.push_back(machine.peek(static_cast<std::uint32_t>(y * site_.width + x), low) & mask);
-    return values;
+  std::vector<std::uint32_t> depths(const MachineView& machine) const {
+    return lib::pixel_field(machine, site_, prepared_.layout.depth, prepared_.layout.depth_bits);
   }
 
   Prepared prepared_;

@@ -13,6 +13,7 @@
 #include "models/parts/service_block/service_block.h"
 #include "sim/config/parameters.h"
 #include "sim/trace/trace_file.h"
+#include "sim/trace/vcd.h"
 
 namespace dendro {
 
@@ -76,6 +77,8 @@ struct MachineOptions {
   std::string vcd_file;         ///< clocked only; empty: none
   std::int64_t vcd_from = 0, vcd_to = INT64_MAX;  ///< window in ticks
   std::vector<std::string> vcd_units;             ///< empty: all
+  std::string pipeline_file;    ///< `clocked` of a machine with a pipeline: Kanata log; empty: none
+  std::int64_t pipeline_from = 0, pipeline_to = INT64_MAX;  ///< window in clocks
   std::map<std::uint32_t, std::string> symbols;   ///< labels by word index, for messages only
   bool cost = false;                              ///< cycle only: keep account of ticks by pixel
   std::size_t activity = 0;                       ///< most samples of activity(), an even number; 0: none are taken
@@ -91,6 +94,9 @@ struct MachineOptions {
       for (const auto& [at, mark] : known->second) marks[first + at] = mark;
   }
 };
+
+/// The window of the options' waveform in picoseconds, for a machine whose tick takes `tick_ps`.
+trace::VcdWindow vcd_window(const MachineOptions& options, std::int64_t tick_ps);
 
 /// One machine at one level of fidelity, for one run.
 class Machine {
@@ -135,7 +141,7 @@ struct ProgramImage {
 /// A call of the program that marks a point of its run (service_block_isa.h): `cycles` and `instructions` of the run
 /// before the mark's store.
 struct ProgramMark {
-  std::uint32_t number = 0, label = 0;
+  std::uint32_t number = 0, label = 0;  ///< of the call (0x7000 up) and its argument
   std::uint64_t instructions = 0;
   std::int64_t cycles = 0;
 };
@@ -161,7 +167,8 @@ struct MachineType {
   std::function<std::unique_ptr<Machine>(const config::ParameterSet&, Level, const MachineOptions&)> make;
   /// Throws the UserError that make() would, and builds nothing. Empty: what make() refuses does not depend on the level.
   std::function<void(const config::ParameterSet&, Level)> check;
-  /// A machine whose programs are ELF files: runs one without a host program, at most `limit` words. Empty elsewhere.
+  /// A machine whose programs are ELF files: runs one without a host program, at most `limit` words, with waveform,
+  /// pipeline log and progress as the options say. At `clocked` this elaborates SystemC. Empty elsewhere.
   std::function<ProgramResult(const config::ParameterSet&, Level, const ProgramImage&, service_block::Services&,
                               std::uint64_t limit, const MachineOptions&)> exec;
   std::vector<trace::Boundary> boundaries;  ///< where its units can be recorded and replayed

@@ -60,7 +60,22 @@ void add_waveform(CLI::App& command, MachineOptions& machine) {
       ->needs("--vcd");
 }
 
+void add_pipeline_log(CLI::App& command, MachineOptions& machine) {
+  command.add_option("--pipeline", machine.pipeline_file, "pipeline log for Konata, at --level clocked")
+      ->check(some_text());
+  command.add_option("--pipeline-from", machine.pipeline_from, "first clock of the pipeline log")
+      ->check(whole_number(0))
+      ->needs("--pipeline");
+  command.add_option("--pipeline-to", machine.pipeline_to, "first clock whose fetches it no longer shows")
+      ->check(whole_number(0))
+      ->needs("--pipeline");
+}
+
 void check_window(const MachineOptions& options) {
+  if (options.pipeline_from >= options.pipeline_to)
+    throw UserError("--pipeline-to", 0, "",
+                    fmt::format("the log's clocks {} up to {} are none; --pipeline-from must be the lesser",
+                                options.pipeline_from, options.pipeline_to));
   if (options.vcd_from >= options.vcd_to)
     throw UserError("--vcd-to", 0, "",
                     fmt::format("the waveform's ticks {} up to {} are none; --vcd-from must be the lesser",

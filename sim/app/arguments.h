@@ -21,7 +21,10 @@ CLI::Validator some_text();
 /// The options --vcd, --vcd-from and --vcd-to.
 void add_waveform(CLI::App& command, MachineOptions& machine);
 
-/// Throws UserError for a waveform window that shows no tick.
+/// The options --pipeline, --pipeline-from and --pipeline-to.
+void add_pipeline_log(CLI::App& command, MachineOptions& machine);
+
+/// Throws UserError for a window of a waveform or pipeline log that shows no tick.
 void check_window(const MachineOptions& options);
 
 /// Throws UserError at `option` when both paths name one file, through whatever links or folders. An empty

@@ -62,15 +62,16 @@ int execute(const study::Catalogue& catalogue, Options options) {
       throw UserError("--dump", 0, "", "`" + dump + "` asks for 0 words; at least 1");
   }
   check_window(options.exec.options);
-  study::OutputFile json(options.json), waveform(options.exec.options.vcd_file);
+  study::OutputFile json(options.json), waveform(options.exec.options.vcd_file),
+      log(options.exec.options.pipeline_file);
   options.exec.options.vcd_file = waveform.work();
+  options.exec.options.pipeline_file = log.work();
   study::Progress progress(options.progress);
   const study::ExecOutput output = study::exec_program(catalogue, options.exec, &progress);
   progress.clear();
   waveform.commit();
-  for (std::size_t i = 0; i < output.dumps.size(); ++i)
-    for (std::size_t n = 0; n < output.dumps[i].size(); ++n)
-      fmt::print("scratch[{}] = 0x{:08x}\n", options.exec.dumps[i].first + n, output.dumps[i][n]);
+  log.commit();
+  for (const std::string& line : output.dump_lines) fmt::print("{}\n", line);
   const stats::RunObject& run = output.object;
   if (output.prints_output) {  // standard output is the program's
     if (!options.quiet) print_run(output);
@@ -92,17 +93,17 @@ int execute(const study::Catalogue& catalogue, Options options) {
 
 void add_exec(CLI::App& app, const study::Catalogue& catalogue, Action& action) {
   const auto o = std::make_shared<Options>();
-  CLI::App* command = app.add_subcommand("exec", "run any program on a machine that has a processor");
+  CLI::App* command = app.add_subcommand("exec", "run any program on a machine that has a processor, or whose host commands programs");
   MachineOptions& machine = o->exec.options;
   command->add_option("machine", o->exec.machine, "NAME[:PRESET] or FILE.toml")->required();
-  command->add_option("program", o->exec.program, ".ucode file or .gia source; an ELF file for sgi-4d35")
+  command->add_option("program", o->exec.program, ".ucode file, .gia or .igc source; an ELF file for sgi-4d35")
       ->required();
-  command->add_option("args", o->exec.arguments, "arguments of the program, after --");
+  command->add_option("args", o->exec.arguments, "arguments of the program, after --; pixel-planes: commands, as NAME:A,B,C:guard=2 or REGISTER=VALUE");
   command->add_option("--level", o->exec.level, "function, cycle or clocked; cycle where the machine has it")
       ->check(some_text());
   command->add_option("--set", o->exec.settings, "key=value of the machine")->allow_extra_args(false);
   command->add_option("--limit", machine.tick_limit, "ticks the processor may run")->check(whole_number(1));
-  command->add_option("--dump", o->dumps, "ADDRESS[:COUNT] scratch words to print; one word without COUNT")
+  command->add_option("--dump", o->dumps, "ADDRESS[:COUNT] scratch words, or pixels, to print; one without COUNT")
       ->allow_extra_args(false);
   command->add_option("--json", o->json, "also write the result here; - is standard output")
       ->check(some_text());
@@ -111,6 +112,7 @@ void add_exec(CLI::App& app, const study::Catalogue& catalogue, Action& action) 
   command->add_flag("--profile", o->exec.profile, "ELF files, level cycle: cycles by function");
   command->add_flag("--quiet", o->quiet, "print no summary");
   add_waveform(*command, machine);
+  add_pipeline_log(*command, machine);
   command->callback(
       [&catalogue, &action, o] { action = [&catalogue, o] { return execute(catalogue, *o); }; });
 }

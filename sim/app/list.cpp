@@ -13,11 +13,20 @@ namespace {
 
 /// The unit that a parameter's name ends in.
 std::string unit_of(const std::string& key) {
-  static const std::pair<const char*, const char*> kUnits[] = {
-      {"_ticks", "ticks"}, {"_ns", "ns"},         {"_us", "us"},           {"_ms", "ms"},
-      {"_mb_s", "MB/s"},   {"_m_s", "million/s"}, {"_hz", "Hz"},           {"_bytes", "bytes"},
-      {"_bits", "bits"},   {"_words", "words"},   {"_entries", "entries"}, {"bits_per_pixel", "bits"},
-      {"_s", "s"}};
+  static const std::pair<const char*, const char*> kUnits[] = {{"_ticks", "ticks"},
+                                                               {"_cycles", "clocks"},
+                                                               {"_ns", "ns"},
+                                                               {"_us", "us"},
+                                                               {"_ms", "ms"},
+                                                               {"_mb_s", "MB/s"},
+                                                               {"_m_s", "million/s"},
+                                                               {"_hz", "Hz"},
+                                                               {"_bytes", "bytes"},
+                                                               {"_bits", "bits"},
+                                                               {"_words", "words"},
+                                                               {"_entries", "entries"},
+                                                               {"bits_per_pixel", "bits"},
+                                                               {"_s", "s"}};
   for (const auto& [suffix, unit] : kUnits) {
     const std::string end = suffix;
     if (key.size() >= end.size() && key.compare(key.size() - end.size(), end.size(), end) == 0) return unit;
@@ -29,8 +38,8 @@ std::string range_of(const config::Parameter& p) {
   if (!p.spread) return p.follows.empty() ? "" : "as " + p.follows;
   std::string text;
   if (p.spread->low) {
-    text =
-        fmt::format("{:g} to {:g}{}", *p.spread->low, *p.spread->high, p.spread->logarithmic ? " (log)" : "");
+    text = fmt::format("{:.10g} to {:.10g}{}", *p.spread->low, *p.spread->high,
+                       p.spread->logarithmic ? " (log)" : "");
   } else {
     for (const config::Value& choice : p.spread->choices)
       text += (text.empty() ? "" : " | ") + config::to_text(choice);

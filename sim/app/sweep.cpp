@@ -1,4 +1,5 @@
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <cstdio>
 #include <memory>
 
@@ -30,8 +31,11 @@ void write_files(const study::Study& study, const study::SweepOutcome& outcome, 
   study::OutputFile csv(folder + "/results.csv");
   csv.commit(study::sweep_csv(study, outcome.rows));
   if (!study::has_picture(study)) return;
-  for (const std::string& output : study.outputs)
-    study::write_picture(folder + "/" + output + ".png", study::sweep_picture(study, outcome.rows, output));
+  for (const std::string& output : study.outputs) {
+    std::string name = output;
+    std::replace(name.begin(), name.end(), ' ', '-');
+    study::write_picture(folder + "/" + name + ".png", study::sweep_picture(study, outcome.rows, output));
+  }
 }
 
 int sweep(const study::Catalogue& catalogue, const Options& options) {

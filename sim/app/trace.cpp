@@ -30,6 +30,7 @@ int record(const study::Catalogue& catalogue, RecordOptions options) {
     if (!arguments.run.machine.empty()) throw UserError("--machine", 0, "", "--exec names the machine");
     arguments.exec.machine = options.exec.at(0);
     arguments.exec.program = options.exec.at(1);
+    arguments.exec.arguments.assign(options.exec.begin() + 2, options.exec.end());
     arguments.exec.options = arguments.run.options;
   }
   study::OutputFile out(options.out);
@@ -87,7 +88,7 @@ void add_record(CLI::App& app, const study::Catalogue& catalogue, Action& action
   const auto o = std::make_shared<RecordOptions>();
   CLI::App* command = app.add_subcommand("record", "write down what passes the boundary of one unit");
   command->add_option("scene", o->record.run.scene, "built-in scene or scene file");
-  command->add_option("--exec", o->exec, "MACHINE[:PRESET] PROGRAM instead of a scene")->expected(2);
+  command->add_option("--exec", o->exec, "MACHINE[:PRESET] PROGRAM [COMMAND]... instead of a scene")->expected(2, 1000);
   command->add_option("--boundary", o->record.boundary, "the unit, as rds3000.frame_memory")->required();
   command->add_option("--from", o->record.from, "first tick")->check(CLI::NonNegativeNumber);
   command->add_option("--to", o->record.to, "tick before which it ends")->check(CLI::NonNegativeNumber);

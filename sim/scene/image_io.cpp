@@ -49,6 +49,27 @@ void write_png(const std::string& path, const RgbImage& image) {
               OIIO::TypeDesc::UINT8, image.rgb.data());
 }
 
+void write_animation(const std::string& path, const std::vector<std::string>& pictures, double pictures_a_second) {
+  DENDRO_CHECK(!pictures.empty());
+  const std::unique_ptr<OIIO::ImageOutput> out = OIIO::ImageOutput::create(path);
+  DENDRO_CHECK(out && out->supports("multiimage"), "{}: {}", path, OIIO::geterror());
+  const RgbImage first = read_rgb(pictures.front());
+  OIIO::ImageSpec spec(first.width, first.height, 3, OIIO::TypeDesc::UINT8);
+  const int rate[] = {static_cast<int>(pictures_a_second * 100), 100};
+  spec.attribute("FramesPerSecond", OIIO::TypeDesc(OIIO::TypeDesc::INT, OIIO::TypeDesc::VEC2, OIIO::TypeDesc::RATIONAL), rate);
+  spec.attribute("oiio:Movie", 1);
+  bool good = true;
+  for (std::size_t i = 0; i < pictures.size() && good; ++i) {
+    const RgbImage image = i == 0 ? first : read_rgb(pictures[i]);
+    DENDRO_CHECK(image.width == first.width && image.height == first.height, "{}", pictures[i]);
+    good = out->open(path, spec, i == 0 ? OIIO::ImageOutput::Create : OIIO::ImageOutput::AppendSubimage) &&
+           out->write_image(OIIO::TypeDesc::UINT8, image.rgb.data());
+  }
+  if (out->close() && good) return;
+  std::remove(path.c_str());
+  throw UserError(path, 0, {}, "cannot be written: " + out->geterror());
+}
+
 RgbImage read_rgb(const std::string& path) {
   const std::unique_ptr<OIIO::ImageInput> in = open_image(path);
   const OIIO::ImageSpec spec = in->spec();

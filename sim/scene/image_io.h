@@ -20,6 +20,10 @@ using FloatChannel = std::pair<std::string, std::vector<float>>;
 /// Writes an 8-bit PNG. Throws UserError when the file cannot be written; then nothing is left of it.
 void write_png(const std::string& path, const RgbImage& image);
 
+/// Joins picture files of one size to a GIF that runs forever. Throws UserError when it cannot be written; then nothing is left
+/// of it.
+void write_animation(const std::string& path, const std::vector<std::string>& pictures, double pictures_a_second);
+
 /// Reads the first three channels of a picture file as 8-bit RGB; one channel becomes grey. Throws UserError.
 RgbImage read_rgb(const std::string& path);
 

@@ -104,4 +104,25 @@ Affine parallel_view(const Camera& camera, const Image& image) {
   return view;
 }
 
+void check_one_light(const Scene& scene, const char* algorithm) {
+  if (scene.lights.size() > 1)
+    throw UserError(scene.lights[1].where.file, scene.lights[1].where.line, "light",
+                    fmt::format("{} takes at most one light, not {}", algorithm, scene.lights.size()));
+}
+
+glm::dvec3 to_light(const Scene& scene) {
+  if (scene.lights.empty()) {
+    const CameraAxes axes(scene.camera);
+    return (-axes.right + 2.0 * axes.up - 2.0 * axes.forward) / 3.0;
+  }
+  const Light& light = scene.lights[0];
+  const glm::dvec3 direction = vec(light.direction);
+  const double length = glm::length(direction);
+  if (!(length > 0) || !std::isfinite(length))
+    throw UserError(light.where.file, light.where.line, "light.direction", "must be finite and not zero");
+  if (!(light.ambient >= 0 && light.ambient <= 1))
+    throw UserError(light.where.file, light.where.line, "light.ambient", "must be in 0..1");
+  return -direction / length;
+}
+
 }  // namespace dendro::scene

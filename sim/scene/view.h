@@ -45,4 +45,11 @@ struct CameraAxes {
 /// perspective camera or a height that is not positive.
 Affine parallel_view(const Camera& camera, const Image& image);
 
+/// Throws UserError, which names the algorithm, for more than one light.
+void check_one_light(const Scene& scene, const char* algorithm);
+
+/// The unit direction to the scene's first light in world space; without a light FG86's: from the left, above, behind the
+/// viewer. Throws UserError for a direction or ambient that is none.
+glm::dvec3 to_light(const Scene& scene);
+
 }  // namespace dendro::scene

@@ -8,14 +8,16 @@
 #include "firmware/half_space/job.h"
 #include "firmware/half_space/planes_job.h"
 #include "firmware/tools/assembler.h"
-#include "firmware/tools/igc_assembler.h"
 #include "firmware/tools/ucode.h"
 #include "sim/base/check.h"
 #include "sim/base/embedded.h"
 #include "sim/base/error.h"
 #include "sim/base/sha256.h"
 #include "sim/config/document.h"
+#include "sim/study/equalisation.h"
+#include "sim/study/igc_programs.h"
 #include "sim/study/primitives.h"
+#include "sim/study/zbuffer_views.h"
 
 namespace dendro::study {
 std::int64_t integer_of(const config::ParameterSet& parameters, const std::string& key) {
@@ -143,30 +145,11 @@ lib::IgcPrograms planes_programs(const half_space::ArraySite& site, const half_s
   options.registers = layout.registers();
   if (layout.variant != half_space::StreamVariant::kScratch) options.registers.erase("scratch");
   if (layout.colouring != half_space::Colouring::kIndex) options.registers.erase("index");
-  lib::IgcPrograms all;
-  for (int k = 0; k < site.ports; ++k) {
-    const std::string* text = base::embedded_file(kPlanesSources[k]);
-    DENDRO_CHECK(text != nullptr, "{}", kPlanesSources[k]);
-    const tools::IgcImage image = tools::assemble_igc(*text, kPlanesSources[k], options);
-    lib::IgcPrograms programs;
-    programs.words = image.words, programs.registers = image.registers;
-    for (const auto& [name, program] : image.programs)
-      programs.entries[name] = {program.entry, program.phase, program.uses_tree};
-    all.append(programs);
-  }
-  std::string bytes;
-  for (const std::uint64_t word : all.words) bytes += std::to_string(word) + "\n";
-  all.name = kPlanesSources[site.ports - 1];
-  all.sha256 = base::sha256(bytes);
-  return all;
+  return igc_programs({kPlanesSources, kPlanesSources + site.ports}, options);
 }
 
 std::unique_ptr<Job> make_planes(const scene::Scene& scene, const config::ParameterSet& parameters) {
-  half_space::ArraySite site;
-  site.width = static_cast<int>(integer_of(parameters, "array.width"));
-  site.height = static_cast<int>(integer_of(parameters, "array.height"));
-  site.memory_bits = static_cast<int>(integer_of(parameters, "array.memory_bits"));
-  site.ports = static_cast<int>(integer_of(parameters, "array.ports"));
+  const lib::ArraySite site = array_site(parameters);
   return half_space::make_planes_job(scene, planes_programs(site, half_space::choose_layout(scene, site)), site);
 }
 
@@ -210,6 +193,8 @@ const std::vector<Algorithm>& algorithms() {
         "mip", "trunk_base", "trunk_range", "trunk_distance", "fraction_bits", "guard_bits", "edge_fraction_bits", "variant",
         "colouring"}},
       raster_primitives_algorithm(),
+      equalisation_algorithm(),
+      zbuffer_views_algorithm(),
   };
   return list;
 }
@@ -242,6 +227,8 @@ std::vector<Firmware> firmware_list() {
     list.push_back({"half_space", kPixelPlanes, programs.name, fmt::format("{}p", ports), programs.sha256, programs.words.size()});
   }
   for (Firmware& firmware : raster_primitives_firmware()) list.push_back(std::move(firmware));
+  list.push_back(equalisation_firmware());
+  for (Firmware& firmware : zbuffer_views_firmware()) list.push_back(std::move(firmware));
   return list;
 }
 

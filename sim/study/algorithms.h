@@ -26,6 +26,7 @@ struct Algorithm {
   std::function<std::unique_ptr<Job>(const scene::Scene&, const MachineType&, const config::ParameterSet&)>
       make;
   std::vector<std::string> option_keys = {};  ///< every key that its job reads from its own table
+  std::vector<std::string> path_keys = {};    ///< those among them that name a file
 };
 
 /// The one list of algorithms.

@@ -66,10 +66,10 @@ std::string bench_json(const std::vector<BenchRow>& rows) {
 }
 
 std::string bench_text(const std::vector<BenchRow>& rows) {
-  std::string text = fmt::format("{:<12}{:<10}{:<14}{:>22}{:>18}{:>10}{:>9}\n", "machine", "level", "work",
+  std::string text = fmt::format("{:<14}{:<10}{:<14}{:>22}{:>18}{:>10}{:>9}\n", "machine", "level", "work",
                                  "million ticks / s", "times real time", "host s", "MB");
   for (const BenchRow& row : rows)
-    text += fmt::format("{:<12}{:<10}{:<14}{:>22.1f}{:>18.2f}{:>10.2f}{:>9}\n", row.machine, row.level,
+    text += fmt::format("{:<14}{:<10}{:<14}{:>22.1f}{:>18.2f}{:>10.2f}{:>9}\n", row.machine, row.level,
                         row.work, row.simulated_hz / 1e6, row.real_time_factor, row.host_seconds,
                         row.peak_rss_bytes / 1000000);
   return text;

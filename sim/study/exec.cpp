@@ -4,6 +4,7 @@
 
 #include <chrono>
 #include <nlohmann/json.hpp>
+#include <optional>
 
 #include "firmware/lib/rds3000/rds_driver.h"
 #include "firmware/tools/assembler.h"
@@ -11,6 +12,7 @@
 #include "sim/base/error.h"
 #include "sim/study/algorithms.h"
 #include "sim/study/exec_elf.h"
+#include "sim/study/exec_igc.h"
 #include "sim/study/worker.h"
 
 namespace dendro::study {
@@ -62,6 +64,7 @@ struct Prepared {
   const MachineType* type = nullptr;
   Level level = Level::kCycle;
   tools::Ucode ucode;
+  std::optional<IgcExec> igc;  ///< instead of it, on a machine whose host commands its programs
 };
 
 Prepared prepare(const Catalogue& catalogue, const ExecArguments& arguments) {
@@ -71,12 +74,14 @@ Prepared prepare(const Catalogue& catalogue, const ExecArguments& arguments) {
   if (p.type->exec)
     throw UserError(arguments.program, 0, "",
                     p.type->name + " has no boundary to record yet; programs run by `dendro exec`");
+  p.level = exec_level(arguments, *p.type);
+  if (p.type->name == "pixel-planes") {
+    p.igc.emplace(arguments, p.preset.parameters);
+    return p;
+  }
   if (!arguments.arguments.empty())
     throw UserError("", 0, arguments.arguments.front(),
                     "a microprogram takes no arguments; give it data in its scratch areas");
-  p.level = exec_level(arguments, *p.type);
-  if (p.preset.parameters.find("processor.tick_ns") == nullptr)
-    throw UserError(p.preset.machine + " has no processor that runs a program by itself: its host sends it commands");
   p.ucode = load_ucode(arguments, p.preset.parameters);
   if (p.ucode.machine != p.type->name)
     throw UserError(arguments.program, 0, "",
@@ -87,25 +92,33 @@ Prepared prepare(const Catalogue& catalogue, const ExecArguments& arguments) {
   return p;
 }
 
+void drive(HostPort& host, const lib::ProgramImage& image) {
+  lib::RdsDriver driver(host);
+  host.phase("load_program");
+  driver.load_program(image);
+  driver.start(image.entry);
+  host.phase("finish");
+  driver.wait();
+}
+
 Json run_here(const Prepared& p, const ExecArguments& arguments, Progress* progress) {
   MachineOptions options = arguments.options;
   if (options.tick_limit == 0) options.tick_limit = kDefaultTickLimit;
-  options.marks = marked_words(p.ucode.symbols);
-  for (const auto& [name, address] : p.ucode.symbols) options.symbols[address] = name;
+  const std::map<std::string, std::uint32_t> symbols = p.igc ? p.igc->symbols() : p.ucode.symbols;
+  options.marks = marked_words(symbols);
+  if (p.igc) options.programs[arguments.program] = options.marks;
+  for (const auto& [name, address] : symbols) options.symbols[address] = name;
   if (progress && progress->enabled())
     options.progress = [progress](std::int64_t tick) { progress->tick(tick); };
   const auto start = std::chrono::steady_clock::now();
   const auto machine = p.type->make(p.preset.parameters, p.level, options);
   if (progress) progress->start_run(arguments.program, machine->clock_hz());
-  const lib::ProgramImage image = image_of(p.ucode, arguments.program);
   machine->run([&](HostPort& port) {
     ReportingPort reporting(port, progress);
-    lib::RdsDriver driver(reporting);
-    reporting.phase("load_program");
-    driver.load_program(image);
-    driver.start(image.entry);
-    reporting.phase("finish");
-    driver.wait();
+    if (p.igc)
+      p.igc->drive(reporting);
+    else
+      drive(reporting, image_of(p.ucode, arguments.program));
   });
   RunOutput output;
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
@@ -116,11 +129,16 @@ Json run_here(const Prepared& p, const ExecArguments& arguments, Progress* progr
   stats::check_sanity(output.object);
   Json json;
   json["run"] = stats::to_json(output.object);
-  json["exit_code"] = machine->peek(kScratchpad, 0) & 0xFF;
-  json["dumps"] = Json::array();
-  for (const auto& [address, words] : arguments.dumps) {
+  json["exit_code"] = p.igc ? 0 : machine->peek(kScratchpad, 0) & 0xFF;
+  json["dumps"] = json["dump_lines"] = Json::array();
+  for (const auto& [address, count] : arguments.dumps) {
     Json dump = Json::array();
-    for (std::uint32_t i = 0; i < words; ++i) dump.push_back(machine->peek(kScratchpad + address + i, 0));
+    for (std::uint32_t n = address; n < address + count; ++n) {
+      const std::uint32_t word = p.igc ? 0 : machine->peek(kScratchpad + n, 0);
+      if (!p.igc) dump.push_back(word);
+      json["dump_lines"].push_back(p.igc ? fmt::format("pixel[{}] = {}", n, p.igc->pixel(*machine, n))
+                                         : fmt::format("scratch[{}] = 0x{:08x}", n, word));
+    }
     json["dumps"].push_back(dump);
   }
   return json;
@@ -166,6 +184,7 @@ ExecOutput exec_program(const Catalogue& catalogue, const ExecArguments& argumen
   output.object = stats::from_json(json.at("run").get<std::string>());
   output.exit_code = json.at("exit_code").get<int>();
   output.dumps = json.at("dumps").get<std::vector<std::vector<std::uint32_t>>>();
+  output.dump_lines = json.at("dump_lines").get<std::vector<std::string>>();
   return output;
 }
 

@@ -13,12 +13,12 @@ namespace dendro::study {
 struct ExecArguments {
   std::string machine;  ///< NAME[:PRESET] or FILE.toml
   std::string
-      program;        ///< path of a .ucode file, of a .gia source that is assembled first, or of an ELF file
+      program;        ///< path of a .ucode file, of a .gia or .igc source that is assembled first, or of an ELF file
   std::string text;   ///< of the program, instead of the file's; `program` only names it then
   std::string level;  ///< empty: cycle, or the machine's first
-  std::vector<std::string> arguments;  ///< of the program, its own name not among them
+  std::vector<std::string> arguments;  ///< of the program, its own name not among them; pixel-planes: commands
   std::vector<std::string> settings;   ///< key=value of machine parameters
-  std::vector<std::pair<std::uint32_t, std::uint32_t>> dumps;  ///< scratch address, words
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> dumps;  ///< scratch address or pixel, how many
   bool profile = false;  ///< `cycle` of a machine whose programs are ELF files: cycles by function
   MachineOptions options;
 };
@@ -28,7 +28,8 @@ struct ExecOutput {
   int exit_code = 0;           ///< of a microprogram: low byte of scratch word 0
   bool prints_output = false;  ///< the program wrote to standard output itself
   std::vector<ProfileRow> profile;
-  std::vector<std::vector<std::uint32_t>> dumps;
+  std::vector<std::vector<std::uint32_t>> dumps;  ///< scratch words
+  std::vector<std::string> dump_lines;            ///< these, or pixels, as text
 };
 
 /// The machine that a program would run on, with the settings in its parameters. Throws UserError.

@@ -25,10 +25,11 @@ constexpr std::int64_t kLeastMemory = 32 << 20, kMostMemory = 256 << 20;
 constexpr std::uint32_t kStackBytes = DENDRO_STACK_BYTES;
 constexpr const char* kMonitor = "mips/monitor.hex";
 
-/// objcopy's "verilog": "@address" in hex, then bytes.
-std::vector<ProgramImage::Chunk> monitor_chunks() {
-  const std::string* text = base::embedded_file(kMonitor);
-  DENDRO_CHECK(text != nullptr, "{} is not embedded", kMonitor);
+}  // namespace
+
+std::vector<ProgramImage::Chunk> embedded_chunks(const std::string& path) {
+  const std::string* text = base::embedded_file(path);
+  DENDRO_CHECK(text != nullptr, "{} is not embedded", path);
   std::vector<ProgramImage::Chunk> chunks;
   const char* at = text->c_str();
   for (char* end = nullptr; *at != 0; at = end) {
@@ -36,7 +37,7 @@ std::vector<ProgramImage::Chunk> monitor_chunks() {
     if (*at == 0) break;
     const bool address = *at == '@';
     const auto value = static_cast<std::uint32_t>(std::strtoul(at + address, &end, 16));
-    DENDRO_CHECK(end != at + address, "{} has no number at byte {}", kMonitor, at - text->c_str());
+    DENDRO_CHECK(end != at + address, "{} has no number at byte {}", path, at - text->c_str());
     if (address)
       chunks.push_back({value & kPhysical, {}});
     else
@@ -44,6 +45,8 @@ std::vector<ProgramImage::Chunk> monitor_chunks() {
   }
   return chunks;
 }
+
+namespace {
 
 std::uint32_t monitor_start() { return kKseg0 + DENDRO_MONITOR_START; }
 
@@ -69,11 +72,13 @@ std::vector<std::uint8_t> first_stack(const std::vector<std::string>& arguments,
   return bytes;
 }
 
+}  // namespace
+
 ProgramImage place_program(const ElfProgram& program, const ExecArguments& arguments,
                            std::uint32_t main_bytes) {
   const std::string& path = arguments.program;
   ProgramImage image;
-  image.chunks = monitor_chunks();
+  image.chunks = embedded_chunks(kMonitor);
   image.start = monitor_start();
   image.program.entry = program.entry;
   image.program.mapped = program.entry < kKseg0;
@@ -101,7 +106,9 @@ ProgramImage place_program(const ElfProgram& program, const ExecArguments& argum
   return image;
 }
 
-std::string fault_text(const HostServices::Fault& fault, const ElfProgram& program) {
+namespace {
+
+std::string fault_text(const CallServices::Fault& fault, const ElfProgram& program) {
   const unsigned code = fault.cause >> 2 & 31;
   const bool slot = fault.cause & r3000::kCauseBd;
   std::string text = fmt::format("the processor raised {} at {}{}", r3000::exception_name(code),
@@ -120,22 +127,36 @@ std::int64_t peak_rss() {
 
 }  // namespace
 
+std::uint32_t main_bytes_of(const config::ParameterSet& parameters) {
+  const std::int64_t bytes = integer_of(parameters, "memory.main_bytes");
+  if (bytes < kLeastMemory || bytes > kMostMemory)
+    throw UserError("", 0, "memory.main_bytes",
+                    fmt::format("is {}, allowed are {} to {}", bytes, kLeastMemory, kMostMemory));
+  return static_cast<std::uint32_t>(bytes);
+}
+
+std::string ending_error(const CallServices& services, const ProgramResult& result, const ElfProgram& program,
+                         std::uint64_t limit) {
+  if (services.fault) return fault_text(*services.fault, program);
+  if (result.stopped) return "";
+  return fmt::format("did not end within {} instructions (--limit); it was at {}, last call from {}", limit,
+                     program.place(result.pc), program.place(result.return_address - 8));
+}
+
 ExecOutput exec_elf(const Catalogue& catalogue, const ExecArguments& arguments) {
   const config::Preset preset = exec_preset(catalogue, arguments);
   const MachineType& type = *catalogue.machine(preset.machine);
   const Level level = exec_level(arguments, type);
   if (!arguments.dumps.empty())
     throw UserError("--dump", 0, "", type.name + " has no scratchpad; let the program print");
-  if (!arguments.options.vcd_file.empty())
+  if (!arguments.options.vcd_file.empty() && level != Level::kClocked)
     throw UserError("--vcd", 0, "", "waveforms exist at --level clocked only");
   if (arguments.profile && level != Level::kCycle)
     throw UserError("--profile", 0, "", "profiles exist at --level cycle only");
+  if (!arguments.options.pipeline_file.empty() && level != Level::kClocked)
+    throw UserError("--pipeline", 0, "", "pipeline logs exist at --level clocked only");
   const ElfProgram program = read_elf(config::read_text({false, arguments.program}, {}), arguments.program);
-  const std::int64_t bytes = integer_of(preset.parameters, "memory.main_bytes");
-  if (bytes < kLeastMemory || bytes > kMostMemory)
-    throw UserError("", 0, "memory.main_bytes",
-                    fmt::format("is {}, allowed are {} to {}", bytes, kLeastMemory, kMostMemory));
-  const auto main_bytes = static_cast<std::uint32_t>(bytes);
+  const std::uint32_t main_bytes = main_bytes_of(preset.parameters);
   const ProgramImage image = place_program(program, arguments, main_bytes);
   const auto limit = arguments.options.tick_limit == 0 ? kDefaultTickLimit : arguments.options.tick_limit;
   HostServices services;
@@ -146,12 +167,8 @@ ExecOutput exec_elf(const Catalogue& catalogue, const ExecArguments& arguments) 
   const ProgramResult result =
       type.exec(preset.parameters, level, image, services, static_cast<std::uint64_t>(limit), options);
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-  if (services.fault) throw UserError(arguments.program, 0, "", fault_text(*services.fault, program));
-  if (!result.stopped)
-    throw UserError(
-        arguments.program, 0, "",
-        fmt::format("did not end within {} instructions (--limit); it was at {}, last call from {}", limit,
-                    program.place(result.pc), program.place(result.return_address - 8)));
+  const std::string wrong = ending_error(services, result, program, static_cast<std::uint64_t>(limit));
+  if (!wrong.empty()) throw UserError(arguments.program, 0, "", wrong);
   ExecOutput output;
   output.prints_output = true;
   output.exit_code = services.exit_code.value_or(0);
@@ -160,13 +177,16 @@ ExecOutput exec_elf(const Catalogue& catalogue, const ExecArguments& arguments) 
   object.preset = preset.name;
   object.level = level_name(level);
   object.clock_hz = result.clock_hz;
-  object.instructions = result.instructions;
-  for (const UnitStats& unit : result.units) object.units.push_back({unit.unit, unit.values});
   object.cycles = object.machine_cycles = result.cycles;
   object.seconds = static_cast<double>(result.cycles) / result.clock_hz;
+  object.elaborated = {type.name};
+  object.instructions = result.instructions;
+  for (const UnitStats& unit : result.units) object.units.push_back({unit.unit, unit.values});
   for (const Phase& phase : phases_of(result.marks, result.cycles))
     object.phases.push_back(
         {phase.name, phase.cycles, static_cast<double>(phase.cycles) / result.clock_hz, phase.on_host});
+  if (object.has_time() && object.phases.empty())
+    object.phases.push_back({"program", result.cycles, object.seconds, false});
   if (arguments.profile) output.profile = profile_of(words, program);
   object.host.seconds = seconds;
   object.host.simulated_hz = static_cast<double>(result.cycles) / std::max(seconds, 1e-9);

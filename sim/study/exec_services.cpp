@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cerrno>
 #include <cstdio>
-#include <string>
+#include <cstring>
 
 namespace dendro::study {
 namespace {
@@ -16,19 +16,60 @@ using service_block::CallResult;
 /// Linux o32.
 constexpr std::uint32_t kExit = 4001, kRead = 4003, kWrite = 4004, kOpen = 4005, kClose = 4006, kLseek = 4019,
                         kMarks = 0x7000, kLastMark = 0x70FF;
-constexpr std::uint32_t kIoError = 5, kBadFile = 9, kFault = 14, kNoSuchCall = 89;
+constexpr long kNoEntry = 2, kIoError = 5, kBadFile = 9, kFault = 14, kExists = 17, kInvalid = 22, kNoSuchCall = 89;
 constexpr std::uint32_t kAppend = 0x8, kCreate = 0x100, kTruncate = 0x200, kExclusive = 0x400;
-constexpr std::uint32_t kSameErrors = 34;  ///< up to here errors have the same number everywhere
-
-CallResult failed(std::uint32_t error) { return {error, true, false}; }
+constexpr long kSameErrors = 34;  ///< up to here errors have the same number everywhere
 
 CallResult outcome(long value) {
   if (value >= 0) return {static_cast<std::uint32_t>(value), false, false};
-  return failed(static_cast<std::uint32_t>(errno) <= kSameErrors ? static_cast<std::uint32_t>(errno)
-                                                                 : kIoError);
+  return {static_cast<std::uint32_t>(-value), true, false};
+}
+
+/// Of a call of this process.
+long or_error(long value) {
+  if (value >= 0) return value;
+  return errno <= kSameErrors ? -errno : -kIoError;
+}
+
+/// The lowest number of 3 and above that is not a key.
+template <class Map>
+std::uint32_t free_number(const Map& files) {
+  std::uint32_t file = 3;
+  while (files.count(file)) ++file;
+  return file;
 }
 
 }  // namespace
+
+CallResult CallServices::call(std::uint32_t number, const std::array<std::uint32_t, 4>& a,
+                              std::vector<std::uint8_t>& memory) {
+  const bool inside = a[1] <= memory.size() && a[2] <= memory.size() - a[1];
+  switch (number) {
+    case kExit:
+      exit_code = static_cast<int>(a[0] & 0xFF);
+      return {0, false, true};
+    case DENDRO_CALL_FAULT:
+      fault = Fault{a[0], a[1], a[2], a[3]};
+      return {0, false, true};
+    case kRead:
+      return outcome(inside ? read_file(a[0], memory.data() + a[1], a[2]) : -kFault);
+    case kWrite:
+      return outcome(inside ? write_file(a[0], memory.data() + a[1], a[2]) : -kFault);
+    case kOpen: {
+      if (a[0] >= memory.size()) return outcome(-kFault);
+      const auto begin = memory.begin() + a[0];
+      return outcome(open_file(std::string(begin, std::find(begin, memory.end(), 0)), a[1], a[2]));
+    }
+    case kClose:
+      return outcome(close_file(a[0]));
+    case kLseek:
+      return outcome(seek_file(a[0], static_cast<std::int32_t>(a[1]), a[2]));
+    default:
+      if (number < kMarks || number > kLastMark) return outcome(-kNoSuchCall);
+      mark(number, a[0]);
+      return {};
+  }
+}
 
 HostServices::~HostServices() {
   for (const auto& [file, host] : files_) ::close(host);
@@ -40,66 +81,97 @@ int HostServices::host_file(std::uint32_t file) const {
   return found == files_.end() ? -1 : found->second;
 }
 
-CallResult HostServices::open_file(const std::array<std::uint32_t, 4>& a,
-                                   const std::vector<std::uint8_t>& memory) {
-  if (a[0] >= memory.size()) return failed(kFault);
-  const auto begin = memory.begin() + a[0], end = std::find(begin, memory.end(), 0);
-  const std::string path(begin, end);
-  int flags = static_cast<int>(a[1] & 3) | O_CLOEXEC;
-  if (a[1] & kAppend) flags |= O_APPEND;
-  if (a[1] & kCreate) flags |= O_CREAT;
-  if (a[1] & kTruncate) flags |= O_TRUNC;
-  if (a[1] & kExclusive) flags |= O_EXCL;
-  const int host = ::open(path.c_str(), flags, a[2] & 0777);
-  if (host < 0) return outcome(-1);
-  std::uint32_t file = 3;
-  while (files_.count(file)) ++file;
+long HostServices::open_file(const std::string& path, std::uint32_t wanted, std::uint32_t mode) {
+  int flags = static_cast<int>(wanted & 3) | O_CLOEXEC;
+  if (wanted & kAppend) flags |= O_APPEND;
+  if (wanted & kCreate) flags |= O_CREAT;
+  if (wanted & kTruncate) flags |= O_TRUNC;
+  if (wanted & kExclusive) flags |= O_EXCL;
+  const int host = ::open(path.c_str(), flags, mode & 0777);
+  if (host < 0) return or_error(host);
+  const std::uint32_t file = free_number(files_);
   files_[file] = host;
-  return {file, false, false};
+  return file;
 }
 
-CallResult HostServices::transfer(bool in, const std::array<std::uint32_t, 4>& a,
-                                  std::vector<std::uint8_t>& memory) {
-  const int host = host_file(a[0]);
-  if (host < 0) return failed(kBadFile);
-  if (a[1] > memory.size() || a[2] > memory.size() - a[1]) return failed(kFault);
-  if (!in && host == 1) std::fflush(stdout);
+long HostServices::close_file(std::uint32_t number) {
+  const auto file = files_.find(number);
+  if (file == files_.end()) return number <= 2 ? 0 : -kBadFile;
+  const int host = file->second;
+  files_.erase(file);
+  return or_error(::close(host));
+}
+
+long HostServices::read_file(std::uint32_t file, std::uint8_t* to, std::uint32_t bytes) {
+  const int host = host_file(file);
+  if (host < 0) return -kBadFile;
   long done = 0;
-  do done = in ? ::read(host, memory.data() + a[1], a[2]) : ::write(host, memory.data() + a[1], a[2]);
+  do done = ::read(host, to, bytes);
   while (done < 0 && errno == EINTR);
-  return outcome(done);
+  return or_error(done);
 }
 
-CallResult HostServices::call(std::uint32_t number, const std::array<std::uint32_t, 4>& a,
-                              std::vector<std::uint8_t>& memory) {
-  switch (number) {
-    case kExit:
-      exit_code = static_cast<int>(a[0] & 0xFF);
-      return {0, false, true};
-    case DENDRO_CALL_FAULT:
-      fault = Fault{a[0], a[1], a[2], a[3]};
-      return {0, false, true};
-    case kRead:
-      return transfer(true, a, memory);
-    case kWrite:
-      return transfer(false, a, memory);
-    case kOpen:
-      return open_file(a, memory);
-    case kClose: {
-      const auto file = files_.find(a[0]);
-      if (file == files_.end()) return a[0] <= 2 ? CallResult{} : failed(kBadFile);
-      const int host = file->second;
-      files_.erase(file);
-      return outcome(::close(host));
-    }
-    case kLseek: {
-      const int host = host_file(a[0]);
-      if (host < 0) return failed(kBadFile);
-      return outcome(::lseek(host, static_cast<std::int32_t>(a[1]), static_cast<int>(a[2])));
-    }
-    default:
-      return number >= kMarks && number <= kLastMark ? CallResult{} : failed(kNoSuchCall);
+long HostServices::write_file(std::uint32_t file, const std::uint8_t* from, std::uint32_t bytes) {
+  const int host = host_file(file);
+  if (host < 0) return -kBadFile;
+  if (host == 1) std::fflush(stdout);
+  long done = 0;
+  do done = ::write(host, from, bytes);
+  while (done < 0 && errno == EINTR);
+  return or_error(done);
+}
+
+long HostServices::seek_file(std::uint32_t file, std::int32_t offset, std::uint32_t from) {
+  const int host = host_file(file);
+  return host < 0 ? -kBadFile : or_error(::lseek(host, offset, static_cast<int>(from)));
+}
+
+long MemoryServices::open_file(const std::string& path, std::uint32_t flags, std::uint32_t) {
+  const bool there = files_.count(path) != 0;
+  if (!there && !(flags & kCreate)) return -kNoEntry;
+  if (there && (flags & kCreate) && (flags & kExclusive)) return -kExists;
+  std::vector<std::uint8_t>& bytes = files_[path];
+  if (flags & kTruncate) bytes.clear();
+  const std::uint32_t file = free_number(open_);
+  open_[file] = {&bytes, (flags & kAppend) ? bytes.size() : 0};
+  return file;
+}
+
+long MemoryServices::close_file(std::uint32_t file) { return open_.erase(file) != 0 || file <= 2 ? 0 : -kBadFile; }
+
+long MemoryServices::read_file(std::uint32_t file, std::uint8_t* to, std::uint32_t bytes) {
+  if (file == 0) return 0;
+  const auto found = open_.find(file);
+  if (found == open_.end()) return -kBadFile;
+  Open& open = found->second;
+  const std::size_t at = std::min(open.at, open.bytes->size()), count = std::min<std::size_t>(bytes, open.bytes->size() - at);
+  std::memcpy(to, open.bytes->data() + at, count);
+  open.at = at + count;
+  return static_cast<long>(count);
+}
+
+long MemoryServices::write_file(std::uint32_t file, const std::uint8_t* from, std::uint32_t bytes) {
+  if (file == 1 || file == 2) {
+    (file == 1 ? output : errors).append(reinterpret_cast<const char*>(from), bytes);
+    return bytes;
   }
+  const auto found = open_.find(file);
+  if (found == open_.end()) return -kBadFile;
+  Open& open = found->second;
+  if (open.bytes->size() < open.at + bytes) open.bytes->resize(open.at + bytes);
+  std::memcpy(open.bytes->data() + open.at, from, bytes);
+  open.at += bytes;
+  return bytes;
+}
+
+long MemoryServices::seek_file(std::uint32_t file, std::int32_t offset, std::uint32_t from) {
+  const auto found = open_.find(file);
+  if (found == open_.end() || from > 2) return found == open_.end() ? -kBadFile : -kInvalid;
+  Open& open = found->second;
+  const auto base = static_cast<std::int64_t>(from == 0 ? 0 : from == 1 ? open.at : open.bytes->size());
+  if (base + offset < 0) return -kInvalid;
+  open.at = static_cast<std::size_t>(base + offset);
+  return static_cast<long>(open.at);
 }
 
 }  // namespace dendro::study

@@ -2,38 +2,84 @@
 
 #include <map>
 #include <optional>
+#include <string>
+#include <vector>
 
 #include "models/parts/service_block/service_block.h"
 
 namespace dendro::study {
 
-/// The calls of a program carried out by this process: its own standard input and output, files by their host
-/// paths.
-class HostServices : public service_block::Services {
+/// The calls of a program with Linux o32 numbers; what files are is left to who derives from it.
+class CallServices : public service_block::Services {
  public:
   struct Fault {
     std::uint32_t cause = 0, epc = 0, address = 0, fpu = 0;
   };
 
+  service_block::CallResult call(std::uint32_t number, const std::array<std::uint32_t, 4>& arguments,
+                                 std::vector<std::uint8_t>& memory) final;
+
+  std::optional<int> exit_code;
+  std::optional<Fault> fault;  ///< the monitor gave the program up
+
+ protected:
+  /// Each returns a value of 0 or more, or an error's number below 0. `flags` are Linux's for MIPS.
+  virtual long open_file(const std::string& path, std::uint32_t flags, std::uint32_t mode) = 0;
+  virtual long close_file(std::uint32_t file) = 0;
+  virtual long read_file(std::uint32_t file, std::uint8_t* to, std::uint32_t bytes) = 0;
+  virtual long write_file(std::uint32_t file, const std::uint8_t* from, std::uint32_t bytes) = 0;
+  virtual long seek_file(std::uint32_t file, std::int32_t offset, std::uint32_t from) = 0;
+  /// A mark: its call's number, 0x7000 up, and its label.
+  virtual void mark(std::uint32_t, std::uint32_t) {}
+};
+
+/// Carried out by this process: its own standard input and output, files by their host paths.
+class HostServices : public CallServices {
+ public:
   HostServices() = default;
   ~HostServices() override;
   HostServices(const HostServices&) = delete;
   HostServices& operator=(const HostServices&) = delete;
 
-  service_block::CallResult call(std::uint32_t number, const std::array<std::uint32_t, 4>& arguments,
-                                 std::vector<std::uint8_t>& memory) override;
-
-  std::optional<int> exit_code;
-  std::optional<Fault> fault;  ///< the monitor gave the program up
-
  private:
-  service_block::CallResult open_file(const std::array<std::uint32_t, 4>& a,
-                                      const std::vector<std::uint8_t>& memory);
-  service_block::CallResult transfer(bool in, const std::array<std::uint32_t, 4>& a,
-                                     std::vector<std::uint8_t>& memory);
+  long open_file(const std::string& path, std::uint32_t flags, std::uint32_t mode) override;
+  long close_file(std::uint32_t file) override;
+  long read_file(std::uint32_t file, std::uint8_t* to, std::uint32_t bytes) override;
+  long write_file(std::uint32_t file, const std::uint8_t* from, std::uint32_t bytes) override;
+  long seek_file(std::uint32_t file, std::int32_t offset, std::uint32_t from) override;
   int host_file(std::uint32_t file) const;
 
   std::map<std::uint32_t, int> files_;  ///< the program's numbers from 3 on
+};
+
+/// Files in memory, by name. Standard input is empty; what goes to standard output and error is kept as text.
+class MemoryServices : public CallServices {
+ public:
+  using Files = std::map<std::string, std::vector<std::uint8_t>>;
+  struct Mark {
+    std::uint32_t number = 0, label = 0;
+  };
+
+  explicit MemoryServices(Files& files) : files_(files) {}
+
+  std::string output, errors;
+  std::vector<Mark> marks;
+
+ private:
+  struct Open {
+    std::vector<std::uint8_t>* bytes = nullptr;
+    std::size_t at = 0;
+  };
+
+  long open_file(const std::string& path, std::uint32_t flags, std::uint32_t mode) override;
+  long close_file(std::uint32_t file) override;
+  long read_file(std::uint32_t file, std::uint8_t* to, std::uint32_t bytes) override;
+  long write_file(std::uint32_t file, const std::uint8_t* from, std::uint32_t bytes) override;
+  long seek_file(std::uint32_t file, std::int32_t offset, std::uint32_t from) override;
+  void mark(std::uint32_t number, std::uint32_t label) override { marks.push_back({number, label}); }
+
+  Files& files_;
+  std::map<std::uint32_t, Open> open_;  ///< the program's numbers from 3 on
 };
 
 }  // namespace dendro::study

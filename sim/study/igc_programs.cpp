@@ -3,6 +3,7 @@
 #include "sim/base/check.h"
 #include "sim/base/embedded.h"
 #include "sim/base/sha256.h"
+#include "sim/study/algorithms.h"
 
 namespace dendro::study {
 
@@ -23,6 +24,15 @@ lib::IgcPrograms igc_programs(const std::vector<std::string>& paths, const tools
   all.name = paths.back();
   all.sha256 = base::sha256(bytes);
   return all;
+}
+
+lib::ArraySite array_site(const config::ParameterSet& parameters) {
+  lib::ArraySite site;
+  site.width = static_cast<int>(integer_of(parameters, "array.width"));
+  site.height = static_cast<int>(integer_of(parameters, "array.height"));
+  site.memory_bits = static_cast<int>(integer_of(parameters, "array.memory_bits"));
+  site.ports = static_cast<int>(integer_of(parameters, "array.ports"));
+  return site;
 }
 
 }  // namespace dendro::study

@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "sim/scene/chart.h"
+#include "sim/scene/psnr.h"
 #include "sim/stats/run_object.h"
 
 namespace dendro::study {
@@ -50,8 +51,8 @@ void compare_with(const RunOutput& reference, Made& made) {
   if (!same_size) {
     row.different_pixels = static_cast<std::int64_t>(run.rgb.size() / 3);
     row.image_psnr_db = 0.0;
-  } else if (squares > 0) {
-    row.image_psnr_db = 10 * std::log10(255.0 * 255.0 * static_cast<double>(run.rgb.size()) / squares);
+  } else {
+    row.image_psnr_db = scene::psnr(squares, run.rgb.size());
   }
   if (!run.rgb.empty())
     row.different_share = static_cast<double>(row.different_pixels) / (static_cast<double>(run.rgb.size()) / 3);

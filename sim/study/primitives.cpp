@@ -18,10 +18,7 @@ lib::IgcPrograms programs_for(const raster_primitives::Layout& layout, const too
 
 std::unique_ptr<Job> make_primitives(const scene::Scene& scene, const MachineType&,
                                      const config::ParameterSet& parameters) {
-  raster_primitives::ArraySite site;
-  site.width = static_cast<int>(integer_of(parameters, "array.width"));
-  site.height = static_cast<int>(integer_of(parameters, "array.height"));
-  site.memory_bits = static_cast<int>(integer_of(parameters, "array.memory_bits"));
+  const lib::ArraySite site = array_site(parameters);
   tools::IgcOptions options;
   options.memory_bits = site.memory_bits;
   const raster_primitives::Layout layout = raster_primitives::choose_layout(scene, site);

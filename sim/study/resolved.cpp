@@ -39,12 +39,16 @@ std::string table_lines(const Node& table) {
 }
 
 /// The plain values, which TOML wants before the first table, and the tables.
-std::pair<std::string, std::string> scene_tables(const Node& document, const std::string& folder) {
+std::pair<std::string, std::string> scene_tables(const Node& document, const Algorithm& algorithm, const std::string& folder) {
   std::string values, tables;
   for (const auto& [key, node] : document.members) {
     if (is_resolved_key(key)) continue;
     if (node.kind == Node::Kind::kTable) {
-      tables += "\n[" + key + "]\n" + table_lines(node);
+      Node table = node;
+      for (const std::string& path : algorithm.path_keys)
+        if (Node* file = key == algorithm.name ? table.member(path) : nullptr)
+          file->value = relative(std::get<std::string>(file->value), folder);
+      tables += "\n[" + key + "]\n" + table_lines(table);
     } else if (is_list_of_tables(node)) {
       for (Node item : node.items) {
         if (Node* mesh = item.member("mesh"); mesh && key == "object")
@@ -100,7 +104,7 @@ std::string resolved_scene(const RunRequest& request, const RunOutput& output, c
   text += "preset = " + quoted(output.object.preset) + "\n";
   text += "level = " + quoted(output.object.level) + "\n";
   text += "seed = " + std::to_string(file.scene.seed) + "\n";
-  const auto [values, tables] = scene_tables(file.document, folder);
+  const auto [values, tables] = scene_tables(file.document, *request.algorithm, folder);
   text += values;
   text += fmt::format("build = {{ dendro = {}, compiler = {} }}\n", quoted(executable_digest()),
                       quoted(compiler_name()));

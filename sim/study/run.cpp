@@ -13,6 +13,7 @@
 #include "sim/scene/chart.h"
 #include "sim/scene/image_io.h"
 #include "sim/study/worker.h"
+#include "sim/study/workstation.h"
 
 namespace dendro::study {
 namespace {
@@ -135,13 +136,12 @@ std::int64_t peak_rss_bytes() {
   return static_cast<std::int64_t>(usage.ru_maxrss) * 1024;
 }
 
-stats::HostInfo host_info(const Machine& machine, double seconds) {
+/// `ticks`: those in which the machine ran, or instructions where there is no time.
+stats::HostInfo host_info(double ticks, double clock_hz, double seconds) {
   stats::HostInfo host;
   host.seconds = seconds;
-  const double ticks = machine.cycles() > 0 ? static_cast<double>(machine.machine_cycles())
-                                            : static_cast<double>(machine.instructions());
   host.simulated_hz = seconds > 0 ? ticks / seconds : 0;
-  host.real_time_factor = host.simulated_hz / machine.clock_hz();
+  host.real_time_factor = host.simulated_hz / clock_hz;
   host.peak_rss_bytes = peak_rss_bytes();
   return host;
 }
@@ -163,8 +163,8 @@ stats::RunObject describe(const RunRequest& request) {
 }
 
 /// A host program that starts the machine many times comes back to its phases; what they took is told once.
-void add_phases(const Machine& machine, stats::RunObject& object) {
-  for (const Phase& p : machine.phases()) {
+void add_phases(const std::vector<Phase>& phases, stats::RunObject& object) {
+  for (const Phase& p : phases) {
     const double seconds = static_cast<double>(p.cycles) / object.clock_hz;
     const auto same = std::find_if(object.phases.begin(), object.phases.end(), [&](const stats::PhaseRow& row) {
       return row.name == p.name && row.on_host == p.on_host;
@@ -185,12 +185,14 @@ void add_counters(const Machine& machine, double seconds, stats::RunObject& obje
   object.machine_cycles = machine.machine_cycles();
   object.instructions = machine.instructions();
   object.time_dependent = machine.time_dependent();
-  add_phases(machine, object);
+  add_phases(machine.phases(), object);
   for (const UnitStats& u : machine.units()) object.units.push_back({u.unit, u.values});
   for (const MarkEvent& m : machine.marks()) object.marks.emplace_back(m.name, m.tick);
   object.executions = machine.executions();
   object.elaborated = machine.elaborated();
-  object.host = host_info(machine, seconds);
+  const double ticks = machine.cycles() > 0 ? static_cast<double>(machine.machine_cycles())
+                                            : static_cast<double>(machine.instructions());
+  object.host = host_info(ticks, machine.clock_hz(), seconds);
 }
 
 /// Where the ticks went, in false colours.
@@ -214,10 +216,8 @@ void write_pictures(const Job& job, const MachineView& view, const Picture& pict
   scene::write_exr(folder + "/image.exr", picture.width, picture.height, channels);
 }
 
-void add_picture(const Machine& machine, const Job& job, const std::string& folder, RunOutput& output) {
-  Picture picture = machine.picture();
-  MachineView view;
-  view.peek = [&](std::uint32_t address, unsigned function) { return machine.peek(address, function); };
+void add_picture(Picture picture, MachineView view, const PixelCosts& costs, const Job& job, const std::string& folder,
+                 RunOutput& output) {
   view.width = picture.width;
   view.height = picture.height;
   view.rgb = picture.rgb.data();
@@ -226,8 +226,35 @@ void add_picture(const Machine& machine, const Job& job, const std::string& fold
                          error.wrong_pixels, error.covered_pixels, error.extra};
   output.object.image = {"", picture.width, picture.height,
                          scene::image_digest({picture.width, picture.height, picture.rgb})};
-  if (!folder.empty()) write_pictures(job, view, picture, machine.costs(), folder);
+  if (!folder.empty()) write_pictures(job, view, picture, costs, folder);
   output.rgb = std::move(picture.rgb);
+}
+
+/// A run on a machine whose programs are files.
+void run_programs(const RunRequest& request, ProgramJob& job, const std::string& folder, Progress* progress, RunOutput& output) {
+  const auto start = std::chrono::steady_clock::now();
+  ElfWorkstation workstation(request, job, request.with_picture ? folder : "", progress);
+  job.run_programs(workstation);
+  const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  stats::RunObject& object = output.object;
+  object.cycles = object.machine_cycles = workstation.cycles();
+  object.clock_hz = workstation.clock_hz();
+  object.seconds = static_cast<double>(object.cycles) / object.clock_hz;
+  object.instructions = workstation.instructions();
+  add_phases(workstation.phases(), object);
+  for (const UnitStats& u : workstation.units())
+    if (request.level != Level::kFunction) object.units.push_back({u.unit, u.values});
+  const double ticks = object.cycles > 0 ? static_cast<double>(object.cycles) : static_cast<double>(object.instructions);
+  object.host = host_info(ticks, object.clock_hz, seconds);
+  object.facts = job.facts();
+  // Counters of a run without time have no `cycles` that they would add up to.
+  for (const UnitStats& u : workstation.units())
+    for (const auto& [name, value] : u.values)
+      if (request.level == Level::kFunction) object.facts.emplace_back(u.unit + "." + name, static_cast<double>(value));
+  stats::check_sanity(object);
+  if (!request.with_picture) return;
+  add_picture({job.width(), job.height(), job.rgb()}, {}, {}, job, folder, output);
+  workstation.finish();
 }
 
 }  // namespace
@@ -299,6 +326,10 @@ RunOutput execute(const RunRequest& request, const std::string& folder, Progress
   for (const std::string& path : job->input_files())
     output.inputs.emplace_back(path, base::sha256_file(path));
   for (const FirmwareImage& image : job->firmware()) output.firmware.emplace_back(image.name, image.sha256);
+  if (auto* programs = dynamic_cast<ProgramJob*>(job.get())) {
+    run_programs(request, *programs, folder, progress, output);
+    return output;
+  }
 
   const auto start = std::chrono::steady_clock::now();
   std::unique_ptr<Machine> machine;
@@ -318,7 +349,10 @@ RunOutput execute(const RunRequest& request, const std::string& folder, Progress
     output.activity = machine->activity();
   }
   stats::check_sanity(output.object);
-  if (request.with_picture) add_picture(*machine, *job, folder, output);
+  if (!request.with_picture) return output;
+  MachineView view;
+  view.peek = [&](std::uint32_t address, unsigned function) { return machine->peek(address, function); };
+  add_picture(machine->picture(), view, machine->costs(), *job, folder, output);
   return output;
 }
 

@@ -56,7 +56,11 @@ void make_absolute(Node* node, const DocumentName& document, const std::string& 
   *text = (folder / *text).lexically_normal().string();
 }
 
-void make_paths_absolute(Document& document, const std::string& share) {
+void make_paths_absolute(Document& document, const Catalogue& catalogue) {
+  const std::string& share = catalogue.share;
+  for (const Algorithm& algorithm : catalogue.algorithms)
+    if (Node* table = document.root.member(algorithm.name))
+      for (const std::string& key : algorithm.path_keys) make_absolute(table->member(key), document.name, share);
   for (const auto& [list, key] : {std::pair("object", "mesh"), std::pair("input", "path")})
     if (Node* items = document.root.member(list))
       for (Node& item : items->items) make_absolute(item.member(key), document.name, share);
@@ -67,13 +71,18 @@ void make_paths_absolute(Document& document, const std::string& share) {
   }
 }
 
-/// A mesh named on the command line is relative to the folder the command runs in.
-void apply_setting(Node& document, const std::string& setting) {
+bool names_a_file(const std::string& key, const Catalogue& catalogue) {
+  for (const Algorithm& algorithm : catalogue.algorithms)
+    for (const std::string& path : algorithm.path_keys)
+      if (key == algorithm.name + "." + path) return true;
+  return key.size() > 5 && key.compare(key.size() - 5, 5, ".mesh") == 0 && key.compare(0, 7, "object.") == 0;
+}
+
+/// A file named on the command line is relative to the folder the command runs in.
+void apply_setting(Node& document, const std::string& setting, const Catalogue& catalogue) {
   const auto [key, text] = config::split_setting(setting);
   Node value = config::parse_setting(text);
-  const bool mesh =
-      key.size() > 5 && key.compare(key.size() - 5, 5, ".mesh") == 0 && key.compare(0, 7, "object.") == 0;
-  if (mesh) make_absolute(&value, DocumentName{false, "./setting"}, "");
+  if (names_a_file(key, catalogue)) make_absolute(&value, DocumentName{false, "./setting"}, "");
   config::set_path(document, key, value);
 }
 
@@ -244,11 +253,11 @@ SceneFile load_scene(const std::string& name, const std::vector<std::string>& se
   const DocumentName root = find_scene(name, catalogue);
   SceneFile file;
   for (Document& document : config::load_documents(root, built_in, {})) {
-    make_paths_absolute(document, catalogue.share);
+    make_paths_absolute(document, catalogue);
     config::merge(file.document, document.root);
     file.document.where = {document.name.path, 0};
   }
-  for (const std::string& setting : settings) apply_setting(file.document, setting);
+  for (const std::string& setting : settings) apply_setting(file.document, setting, catalogue);
   file.scene.name = fs::path(root.path).stem().string();
   file.scene.file = root.path;
   interpret(file, catalogue);

@@ -12,7 +12,9 @@
 #include "sim/config/preset.h"
 #include "sim/scene/chart.h"
 #include "sim/study/algorithms.h"
+#include "sim/study/igc_programs.h"
 #include "sim/study/run.h"
+#include "sim/study/stability_tree.h"
 #include "sim/study/worker.h"
 
 namespace dendro::study {
@@ -33,8 +35,28 @@ class CatalogueRig : public stability::Rig {
     DENDRO_CHECK(type_ != nullptr, "{}", machine);
   }
 
+  std::unique_ptr<Rig> with(const std::map<std::string, std::int64_t>& parameters) const override {
+    auto other = std::make_unique<CatalogueRig>(*this);
+    for (const auto& [key, value] : parameters) other->preset_.parameters.set(key, value, {"stability", 0});
+    return other;
+  }
+
   lib::ProgramImage program(const std::string& path) const override {
     return program_image(path, preset_.parameters);
+  }
+
+  lib::IgcPrograms igc_programs(const std::vector<std::string>& paths) const override {
+    tools::IgcOptions options;
+    options.ports = static_cast<int>(integer_of(preset_.parameters, "array.ports"));
+    options.memory_bits = static_cast<int>(integer_of(preset_.parameters, "array.memory_bits"));
+    return study::igc_programs(paths, options);
+  }
+
+  std::vector<std::vector<std::int64_t>> tree(const stability::TreeDrive& drive,
+                                              const std::vector<stability::TreeStream>& streams,
+                                              const std::vector<stability::TreePixel>& pixels) const override {
+    return drive_tree(static_cast<int>(integer_of(preset_.parameters, "array.width")),
+                      static_cast<int>(integer_of(preset_.parameters, "array.height")), drive, streams, pixels);
   }
 
   void run(const std::function<void(HostPort&)>& host_program,
@@ -105,7 +127,8 @@ Json to_json(const Row& row) {
 
 const std::vector<StabilitySuite>& stability_suites() {
   static const std::vector<StabilitySuite> list = {
-      {"half_space", "rds3000:fg86", half_space::stability_cases()}};
+      {"half_space", "rds3000:fg86", half_space::stability_cases()},
+      {"half_space", "pixel-planes:pxpl4", half_space::planes_stability_cases()}};
   return list;
 }
 

@@ -22,6 +22,7 @@ using config::TableReader;
 using config::Value;
 
 constexpr const char* kFolder = "sim/study/studies";
+constexpr const char* kPer = " per ";
 constexpr double kMostPoints = 1e7;  // of one axis, whatever the user says: they are held in memory
 
 std::string built_in_path(const std::string& name) {
@@ -167,6 +168,19 @@ std::string resolve_path(const std::string& text, const config::DocumentName& st
   return (fs::absolute(study.path).parent_path() / text).lexically_normal().string();
 }
 
+/// The axis that varies the machine names machines as the study's own key does.
+void read_machines(TableReader& root, const config::DocumentName& document, Study& study) {
+  for (StudyAxis& axis : study.axes) {
+    if (axis.key != kMachineKey) continue;
+    if (root.has("machine")) root.fail("machine", "an axis varies the machine");
+    for (Value& value : axis.values) {
+      auto* name = std::get_if<std::string>(&value);
+      if (name == nullptr) throw UserError(axis.where.file, axis.where.line, axis.key, "every value must be a machine's name");
+      *name = resolve_path(*name, document);
+    }
+  }
+}
+
 void read_axes(TableReader& root, bool many, Study& study) {
   const Node* axes = root.node("axis");
   if (axes == nullptr || axes->kind != Node::Kind::kArray || axes->items.empty())
@@ -221,8 +235,21 @@ std::vector<std::string> Study::settings_of(std::size_t run) const {
   std::vector<std::string> all = settings;
   const auto at = place(run);
   for (std::size_t i = 0; i < axes.size(); ++i)
-    all.push_back(axes[i].key + "=" + config::to_text(axes[i].values[at[i]]));
+    if (axes[i].key != kMachineKey) all.push_back(axes[i].key + "=" + config::to_text(axes[i].values[at[i]]));
   return all;
+}
+
+std::string Study::machine_of(std::size_t run) const {
+  const auto at = place(run);
+  for (std::size_t i = 0; i < axes.size(); ++i)
+    if (axes[i].key == kMachineKey) return std::get<std::string>(axes[i].values[at[i]]);
+  return machine;
+}
+
+std::vector<std::string> figures_of(const std::string& output) {
+  const std::size_t per = output.find(kPer);
+  if (per == std::string::npos) return {output};
+  return {output.substr(0, per), output.substr(per + std::string(kPer).size())};
 }
 
 std::vector<BuiltInStudy> built_in_studies() {
@@ -256,7 +283,12 @@ Study load_study(const std::string& name, bool many) {
   study.outputs = read_words(root, "outputs", {"seconds"});
   study.settings_where = root.where("set");
   if (const Node* set = root.table("set")) flatten(*set, "", study.settings);
+  study.output_labels = read_words(root, "output_labels", study.outputs);
+  if (study.output_labels.size() != study.outputs.size())
+    root.fail("output_labels", fmt::format("{} labels for {} outputs", study.output_labels.size(), study.outputs.size()));
+  study.logarithmic = root.choice("output_scale", "linear", {"linear", "log"}) == "log";
   read_axes(root, many, study);
+  read_machines(root, document, study);
   root.finish();
   return study;
 }

@@ -11,7 +11,7 @@ namespace dendro::study {
 
 /// One thing that a study varies.
 struct StudyAxis {
-  std::string key;    ///< "parameters.processor.tick_ns" or a scene key, as for --set
+  std::string key;    ///< "parameters.processor.tick_ns" or a scene key, as for --set; "machine": the machine itself
   std::string label;  ///< for pictures; the key unless the file says otherwise
   bool logarithmic = false;
   std::vector<config::Value> values;
@@ -34,16 +34,26 @@ struct Study {
   std::optional<std::uint64_t> seed;
   std::vector<std::string> settings;  ///< key=value, the same in every run
   std::vector<StudyAxis> axes;
-  std::vector<std::string> outputs;  ///< figures of stats::figures()
+  std::vector<std::string> outputs;        ///< figures of stats::figures(), or `A per B` of two
+  std::vector<std::string> output_labels;  ///< for pictures; the outputs unless the file says otherwise
+  bool logarithmic = false;                ///< the outputs in pictures
   config::Where scene_where, machine_where, levels_where, settings_where, outputs_where;
 
   std::size_t runs() const;
   /// The value of every axis at a run; levels vary slowest, the last axis fastest.
   std::vector<std::size_t> place(std::size_t run) const;
   const std::string& level_of(std::size_t run) const;
-  /// All key=value settings of a run.
+  /// All key=value settings of a run, without its machine.
   std::vector<std::string> settings_of(std::size_t run) const;
+  /// NAME or NAME:PRESET or a file; empty: the scene's.
+  std::string machine_of(std::size_t run) const;
 };
+
+/// The key of an axis that varies the machine.
+constexpr const char* kMachineKey = "machine";
+
+/// The figures that an output is made of: itself, or both of `A per B`.
+std::vector<std::string> figures_of(const std::string& output);
 
 /// More runs than this want a word from the user.
 constexpr std::size_t kManyRuns = 10000;

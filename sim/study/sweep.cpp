@@ -26,11 +26,11 @@ std::string reason(const UserError& error) {
 /// Figures that a run may lack for a good reason.
 bool may_be_missing(const std::string& output) { return output == "error.psnr_db"; }
 
-RunRequest prepare(const Catalogue& catalogue, const Study& study, const std::string& level,
+RunRequest prepare(const Catalogue& catalogue, const Study& study, const std::string& machine, const std::string& level,
                    const std::vector<std::string>& settings) {
   RunArguments arguments;
   arguments.scene = study.scene;
-  arguments.machine = study.machine;
+  arguments.machine = machine;
   arguments.level = level;
   arguments.settings = settings;
   arguments.seed = study.seed;
@@ -45,26 +45,35 @@ void blaming(const Study& study, const config::Where& where, const std::string& 
   } catch (const UserError& error) {
     if (error.file().empty())
       throw UserError(study.scene_where.file, study.scene_where.line, "scene", error.what());
-    if (error.file() == "--machine")
-      throw UserError(study.machine_where.file, study.machine_where.line, "machine", error.message());
+    if (error.file() == "--machine") {
+      config::Where named = study.machine_where;
+      for (const StudyAxis& axis : study.axes)
+        if (axis.key == kMachineKey) named = axis.where;
+      throw UserError(named.file, named.line, kMachineKey, error.message());
+    }
     if (error.file() != "--set" && error.file() != "--level") throw;
     throw UserError(where.file, where.line, key.empty() ? error.key() : key, error.message());
   }
 }
 
-/// Every level and every value alone, so that a wrong key or type costs no run.
+/// Every level, machine and value alone, so that a wrong key or type costs no run.
 void check_settings(const Catalogue& catalogue, const Study& study) {
-  for (const std::string& level : study.levels)
-    blaming(study, study.levels_where, "levels", [&] { prepare(catalogue, study, level, {}); });
-  blaming(study, study.settings_where, "", [&] { prepare(catalogue, study, study.levels.front(), study.settings); });
+  const std::string machine = study.machine_of(0), &level = study.levels.front();
+  for (const std::string& one : study.levels)
+    blaming(study, study.levels_where, "levels", [&] { prepare(catalogue, study, machine, one, {}); });
+  blaming(study, study.settings_where, "", [&] { prepare(catalogue, study, machine, level, study.settings); });
   for (const StudyAxis& axis : study.axes) {
     // One value of a long range stands for the others: they differ in nothing but their size.
     const std::size_t step = axis.values.size() > kBatch ? axis.values.size() - 1 : 1;
     for (std::size_t i = 0; i < axis.values.size(); i += step)
       blaming(study, axis.where, axis.key, [&] {
+        if (axis.key == kMachineKey) {
+          prepare(catalogue, study, std::get<std::string>(axis.values[i]), level, study.settings);
+          return;
+        }
         std::vector<std::string> settings = study.settings;
         settings.push_back(axis.key + "=" + config::to_text(axis.values[i]));
-        prepare(catalogue, study, study.levels.front(), settings);
+        prepare(catalogue, study, machine, level, settings);
       });
   }
 }
@@ -75,9 +84,10 @@ void check_outputs(const Study& study, const SweepRow& row) {
   std::vector<std::string> names;
   for (const auto& [name, value] : row.figures) names.push_back(name);
   for (const std::string& output : study.outputs)
-    if (row.figures.count(output) == 0 && !may_be_missing(output))
-      throw UserError(study.outputs_where.file, study.outputs_where.line, "outputs",
-                      "runs have no figure `" + output + "`" + config::did_you_mean(output, names));
+    for (const std::string& figure : figures_of(output))
+      if (row.figures.count(figure) == 0 && !may_be_missing(figure))
+        throw UserError(study.outputs_where.file, study.outputs_where.line, "outputs",
+                        "runs have no figure `" + figure + "`" + config::did_you_mean(figure, names));
 }
 
 /// True when it was not there before.
@@ -143,7 +153,7 @@ class Sweeper {
   void look_up(std::size_t run, std::vector<Open>& open) {
     SweepRow& row = outcome_.rows[run];
     try {
-      Open o{run, "", prepare(catalogue_, study_, study_.level_of(run), study_.settings_of(run))};
+      Open o{run, "", prepare(catalogue_, study_, study_.machine_of(run), study_.level_of(run), study_.settings_of(run))};
       o.key = RunCache::key(o.request);
       if (auto found = results_.find(o.key)) {
         row = std::move(*found);
@@ -202,8 +212,13 @@ SweepOutcome sweep(const Catalogue& catalogue, const Study& study, const SweepOp
 }
 
 double output_of(const SweepRow& row, const std::string& output) {
-  const auto found = row.figures.find(output);
-  return found == row.figures.end() ? std::numeric_limits<double>::quiet_NaN() : found->second;
+  const std::vector<std::string> figures = figures_of(output);
+  std::vector<double> values;
+  for (const std::string& figure : figures) {
+    const auto found = row.figures.find(figure);
+    values.push_back(found == row.figures.end() ? std::numeric_limits<double>::quiet_NaN() : found->second);
+  }
+  return values.size() == 1 ? values[0] : values[0] / values[1];
 }
 
 }  // namespace dendro::study

@@ -2,7 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
+#include <set>
 
 #include "sim/base/check.h"
 #include "sim/scene/chart.h"
@@ -31,13 +33,14 @@ Json json_of(const config::Value& value) {
   return std::visit([](const auto& v) { return Json(v); }, value);
 }
 
-/// Parameters in the order of the first row that ran; all rows of a study have the same machine.
+/// Parameters in the order of the rows' presets; a study of several machines has those of all.
 std::vector<std::string> parameter_names(const std::vector<SweepRow>& rows) {
   std::vector<std::string> names;
+  std::set<std::string> known, machines;
   for (const SweepRow& row : rows) {
-    if (row.parameters.empty()) continue;
-    for (const auto& [name, value] : row.parameters) names.push_back(name);
-    break;
+    if (row.parameters.empty() || !machines.insert(row.machine).second) continue;
+    for (const auto& [name, value] : row.parameters)
+      if (known.insert(name).second) names.push_back(name);
   }
   return names;
 }
@@ -67,14 +70,25 @@ double position(const StudyAxis& axis, std::size_t index) {
   return integer ? static_cast<double>(*integer) : std::get<double>(v);
 }
 
+const std::string& label_of(const Study& study, const std::string& output) {
+  const auto at = std::find(study.outputs.begin(), study.outputs.end(), output) - study.outputs.begin();
+  return study.output_labels[static_cast<std::size_t>(at)];
+}
+
+/// A study's own labels stand at the axis, so its title goes without the figure's name.
 std::string title(const Study& study, const std::string& output) {
-  return (study.description.empty() ? study.name : study.description) + ": " + output;
+  const std::string& name = study.description.empty() ? study.name : study.description;
+  return label_of(study, output) == output ? name + ": " + output : name;
+}
+
+scene::ChartAxis output_axis(const Study& study, const std::string& output) {
+  return {label_of(study, output), study.logarithmic, {}};
 }
 
 scene::RgbImage line_picture(const Study& study, const std::vector<SweepRow>& rows, const std::string& output,
                              std::size_t axis_index) {
   const StudyAxis& axis = study.axes[axis_index];
-  scene::LineChart chart{title(study, output), chart_axis(axis, false), {output, false, {}}, {}};
+  scene::LineChart chart{title(study, output), chart_axis(axis, false), output_axis(study, output), {}};
   const std::size_t per_level = study.runs() / study.levels.size();
   for (std::size_t level = 0; level < study.levels.size(); ++level) {
     scene::ChartSeries series{study.levels[level], {}, {}};
@@ -97,7 +111,7 @@ bool is_curves(const Study& study, std::size_t across, std::size_t along) {
 
 scene::RgbImage curves_picture(const Study& study, const std::vector<SweepRow>& rows, const std::string& output,
                                std::size_t across, std::size_t along) {
-  scene::LineChart chart{title(study, output), chart_axis(study.axes[along], false), {output, false, {}}, {}};
+  scene::LineChart chart{title(study, output), chart_axis(study.axes[along], false), output_axis(study, output), {}};
   for (std::size_t value = 0; value < study.axes[across].values.size(); ++value)
     chart.series.push_back({study.axes[across].label + ": " + study.axes[across].text_of(value), {}, {}});
   for (std::size_t run = 0; run < study.runs(); ++run) {
@@ -111,7 +125,8 @@ scene::RgbImage curves_picture(const Study& study, const std::vector<SweepRow>& 
 
 scene::RgbImage heat_picture(const Study& study, const std::vector<SweepRow>& rows, const std::string& output,
                              std::size_t x, std::size_t y) {
-  scene::HeatMap map{title(study, output), chart_axis(study.axes[x], true), chart_axis(study.axes[y], true), output, {}};
+  scene::HeatMap map{title(study, output), chart_axis(study.axes[x], true), chart_axis(study.axes[y], true),
+                     label_of(study, output), {}};
   const std::size_t columns = study.axes[x].values.size();
   map.values.resize(columns * study.axes[y].values.size());
   for (std::size_t run = 0; run < map.values.size(); ++run) {

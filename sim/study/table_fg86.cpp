@@ -26,7 +26,8 @@ void check(const TableContext& context) {
 PaperTable fg86_table() {
   std::vector<RowGroup> groups;
   for (const auto make : {fg86_time_groups, fg86_machine_groups, fg86_growth_groups, fg86_hull_groups,
-                          fg86_surface_groups, fg86_texture_groups, fg86_tree_groups, fg86_planes_groups, fg86_open_groups})
+                          fg86_surface_groups, fg86_texture_groups, fg86_tree_groups, fg86_planes_groups,
+                          fg86_texels_groups, fg86_open_groups})
     for (RowGroup& group : make()) groups.push_back(std::move(group));
   return grouped_table("FG86", std::move(groups), check);
 }

@@ -15,6 +15,7 @@ fg86_surface_groups();  ///< A6, A8, A16, A27, A28: roughening and colour, progr
 std::vector<RowGroup> fg86_texture_groups();  ///< A9, A13 to A15, A28: the texture cube, its program alone
 std::vector<RowGroup> fg86_tree_groups();     ///< A10, A26, A35, A36: the complete tree, views of it, trunks
 std::vector<RowGroup> fg86_planes_groups();   ///< A22 to A25, A38: the machine that FG86 6.3 proposes
+std::vector<RowGroup> fg86_texels_groups();   ///< A28 on that machine
 std::vector<RowGroup> fg86_open_groups();     ///< claims without an experiment here, and why
 
 }  // namespace dendro::study

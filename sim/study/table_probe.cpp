@@ -35,22 +35,32 @@ class ProbeJob : public Job {
 
 }  // namespace
 
-ProbeRequest::ProbeRequest(const TableContext& context, const Probe& probe, const std::string& level) {
-  const auto make = [&probe](const scene::Scene&, const MachineType&,
-                             const config::ParameterSet& parameters) {
-    return std::make_unique<ProbeJob>(probe, program_image(probe.program, parameters));
-  };
-  algorithm_ = {"probe", probe.name, {"rds3000"}, "", make};
+ProbeRequest::ProbeRequest(const TableContext& context, const std::string& name, const std::string& machine,
+                           std::function<std::unique_ptr<Job>(const config::ParameterSet&)> make,
+                           const std::string& level) {
+  ExecArguments arguments;
+  arguments.machine = machine;
+  arguments.settings = parameter_settings(context);
   request_.catalogue = &context.catalogue;
-  request_.algorithm = &algorithm_;
-  ExecArguments machine;
-  machine.machine = probe.machine;
-  machine.settings = parameter_settings(context);
-  request_.preset = exec_preset(context.catalogue, machine);
+  request_.preset = exec_preset(context.catalogue, arguments);
   request_.type = context.catalogue.machine(request_.preset.machine);
+  algorithm_ = {"probe", name, {request_.preset.machine}, "",
+                [make = std::move(make)](const scene::Scene&, const MachineType&, const config::ParameterSet& parameters) {
+                  return make(parameters);
+                }};
+  request_.algorithm = &algorithm_;
   request_.level = level_of(level.empty() ? context.options.level : level, *request_.type);
-  request_.file.scene.name = probe.name;
+  request_.file.scene.name = name;
   request_.file.scene.algorithm = algorithm_.name;
+}
+
+ProbeRequest::ProbeRequest(const TableContext& context, const Probe& probe, const std::string& level)
+    : ProbeRequest(
+          context, probe.name, probe.machine,
+          [&probe](const config::ParameterSet& parameters) {
+            return std::make_unique<ProbeJob>(probe, program_image(probe.program, parameters));
+          },
+          level) {
   if (probe.counted && request_.level == Level::kFunction)
     request_.options.counted = probe.counted(program_image(probe.program, request_.preset.parameters));
 }

@@ -31,6 +31,9 @@ struct Probe {
 class ProbeRequest {
  public:
   ProbeRequest(const TableContext& context, const Probe& probe, const std::string& level = "");
+  /// Any job without a scene, on a machine NAME or NAME:PRESET.
+  ProbeRequest(const TableContext& context, const std::string& name, const std::string& machine,
+               std::function<std::unique_ptr<Job>(const config::ParameterSet&)> make, const std::string& level = "");
   ProbeRequest(const ProbeRequest&) = delete;
 
   const RunRequest& request() const { return request_; }

@@ -148,7 +148,10 @@ ReplayOutput replay_trace(const Catalogue& catalogue, const ReplayArguments& arg
   if (level != Level::kCycle && level != Level::kClocked)
     throw UserError("--level", 0, "", "a trace says when things happen: replay it at cycle or clocked");
   const config::ParameterSet parameters = parameters_of(catalogue, *trace, arguments.settings);
-  type.make(parameters, Level::kFunction, {});
+  if (type.check)
+    type.check(parameters, level);
+  else
+    type.make(parameters, Level::kFunction, {});
   const Json json = Json::parse(run_in_worker([&] {
     const trace::ReplayResult result = type.replay(parameters, level, *trace);
     Json reply = {{"transactions", result.transactions}, {"cycles", result.cycles}};

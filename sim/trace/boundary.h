@@ -14,6 +14,7 @@ struct Op {
   std::vector<std::string> keys;          ///< before the arrow
   bool checks_time = false, checks_data = false;
   std::vector<std::string> checked_keys;  ///< after the arrow
+  std::vector<std::string> singles = {};  ///< of the keys before the arrow, those that may have a point
 };
 
 /// Where a unit can be cut out of its machine.

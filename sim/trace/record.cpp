@@ -2,7 +2,10 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <charconv>
+#include <cmath>
+#include <cstring>
 #include <iterator>
 
 #include "sim/base/error.h"
@@ -16,8 +19,19 @@ const Number* find(const Keys& keys, std::string_view name) {
   return nullptr;
 }
 
+/// The shortest text that gives the same bits again, with a point.
+std::string text_of_single(std::uint32_t bits) {
+  float value = 0;
+  std::memcpy(&value, &bits, sizeof value);
+  std::string text = fmt::format("{}", value);
+  if (text.find('.') == std::string::npos) text.insert(std::min(text.find('e'), text.size()), ".0");
+  return text;
+}
+
 void append_number(const Number& number, std::string& text) {
-  if (number.hex)
+  if (number.single)
+    text += text_of_single(static_cast<std::uint32_t>(number.value));
+  else if (number.hex)
     fmt::format_to(std::back_inserter(text), "0x{:x}", number.value);
   else
     fmt::format_to(std::back_inserter(text), "{}", static_cast<std::int64_t>(number.value));
@@ -64,6 +78,7 @@ class Words {
 
   Number number(std::string_view text) const {
     const std::string_view whole = text;
+    if (text.find('.') != std::string_view::npos) return single_of(text);
     const bool negative = !text.empty() && text[0] == '-';
     if (negative) text.remove_prefix(1);
     Number number;
@@ -78,9 +93,19 @@ class Words {
     return number;
   }
 
+  Number single_of(std::string_view text) const {
+    float value = 0;
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+    if (error != std::errc() || end != text.data() + text.size() || !std::isfinite(value))
+      fail(fmt::format("`{}` is no number of single precision", text));
+    std::uint32_t bits = 0;
+    std::memcpy(&bits, &value, sizeof bits);
+    return {bits, false, true};
+  }
+
   When when(std::string_view word) const {
     const Number ticks = number(word.substr(1));
-    if (static_cast<std::int64_t>(ticks.value) < 0 || static_cast<std::int64_t>(ticks.value) > INT64_MAX / 8)
+    if (ticks.single || static_cast<std::int64_t>(ticks.value) < 0 || static_cast<std::int64_t>(ticks.value) > INT64_MAX / 8)
       fail(fmt::format("`{}` is no time: ticks are 0 or more", word));
     return {word[0] == '@' ? When::Kind::kAbsolute : When::Kind::kRelative, static_cast<std::int64_t>(ticks.value)};
   }
@@ -116,6 +141,12 @@ void parse_answer(Words& words, Record& record) {
 }
 
 }  // namespace
+
+Number single(std::uint32_t bits) {
+  float value = 0;
+  std::memcpy(&value, &bits, sizeof value);
+  return std::isfinite(value) ? Number{bits, false, true} : hex(bits);
+}
 
 std::int64_t Record::key(std::string_view name, std::int64_t otherwise) const {
   const Number* number = find(keys, name);

@@ -11,12 +11,15 @@ namespace dendro::trace {
 
 /// A number of a record; how it was written decides how it is written again.
 struct Number {
-  std::uint64_t value = 0;  ///< negative ones in two's complement
+  std::uint64_t value = 0;  ///< negative ones in two's complement; of a single, its 32 bits
   bool hex = false;
+  bool single = false;  ///< written with a point: IEEE single precision
 };
 
 inline Number decimal(std::int64_t value) { return {static_cast<std::uint64_t>(value), false}; }
 inline Number hex(std::uint64_t value) { return {value, true}; }
+/// The bits of an IEEE single; written with a point unless it is not finite.
+Number single(std::uint32_t bits);
 
 /// `@T`, `+T`, or nothing.
 struct When {

@@ -23,9 +23,9 @@ class Replayer {
   /// Times lie in 0 .. `longest` ticks.
   Replayer(Reader& trace, std::int64_t longest) : trace_(trace), longest_(longest) {}
 
-  /// Calls drive(record) for every record until the unit differs. Fills in everything but `cycles`.
-  template <class Drive>
-  ReplayResult run(const Drive& drive) {
+  /// Calls drive(record) for every record until the unit differs, then finish(). Fills in everything but `cycles`.
+  template <class Drive, class Finish>
+  ReplayResult run(const Drive& drive, const Finish& finish) {
     ReplayResult result;
     Record record;
     try {
@@ -33,10 +33,16 @@ class Replayer {
         drive(record);
         ++result.transactions;
       }
+      finish();
     } catch (const Difference& difference) {
       result.difference = fmt::format("{}:{}: {}", trace_.name(), difference.line, difference.text);
     }
     return result;
+  }
+
+  template <class Drive>
+  ReplayResult run(const Drive& drive) {
+    return run(drive, [] {});
   }
 
   /// The next record, which `by` cannot do without. Throws UserError at the end of the trace.

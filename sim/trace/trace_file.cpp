@@ -265,6 +265,17 @@ void Reader::check_keys(const Record& record, const Keys& keys, const std::vecto
   }
 }
 
+void Reader::check_singles(const Record& record, const std::vector<std::string>& allowed) const {
+  const auto whole = [&](const Number& number) {
+    if (number.single) fail(record.line, fmt::format("`{}` takes whole numbers here", record.op));
+  };
+  for (const Number& number : record.values) whole(number);
+  if (record.answer) whole(*record.answer);
+  for (const auto& [key, number] : record.answer_keys) whole(number);
+  for (const auto& [key, number] : record.keys)
+    if (std::find(allowed.begin(), allowed.end(), key) == allowed.end()) whole(number);
+}
+
 void Reader::check(const Record& record) const {
   if (!boundary_) return;
   const Op* op = boundary_->find(record.op);
@@ -279,6 +290,7 @@ void Reader::check(const Record& record) const {
                                                         : fmt::format("{} to {}", op->least, op->most),
                                   op->most == 1 ? "" : "s", record.values.size()));
   check_keys(record, record.keys, op->keys);
+  check_singles(record, op->singles);
   check_keys(record, record.answer_keys, op->checked_keys);
   if (record.answer_at.given() && !op->checks_time) fail(record.line, fmt::format("`{}` has no answer time", record.op));
   if (record.answer && !op->checks_data) fail(record.line, fmt::format("`{}` has no answer data", record.op));

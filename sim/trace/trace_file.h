@@ -86,6 +86,7 @@ class Reader {
   void read_header();
   void check_envelope();
   void check(const Record& record) const;
+  void check_singles(const Record& record, const std::vector<std::string>& allowed) const;
   void check_keys(const Record& record, const Keys& keys, const std::vector<std::string>& known) const;
   [[noreturn]] void fail(int line, const std::string& message) const;
 

@@ -53,7 +53,7 @@ TEST_F(Primitives, AResolvedRunRepeatsItself) {
 
 TEST_F(Primitives, WhatCannotBeDrawnIsOneLine) {
   const std::string run = "run teapot --set ";
-  expect_user_error(run + "image.width=600", "image.width: 600 is outside the array's 1..512 pixels");
+  expect_user_error(run + "image.width=600", "image.width: 600 is more than the 512 pixels of the array");
   expect_user_error(run + "raster_primitives.colours=[[2,0,0]]", "raster_primitives.colours: a colour's parts are 0..1");
   expect_user_error(run + "raster_primitives.spheres=[[0,0,0,0,1,1,1]]", "with a radius above 0");
   expect_user_error(run + "raster_primitives.spheres=[[900,0,0,950,1,1,1]]", "sphere 1 is too large for the numbers in a pixel");

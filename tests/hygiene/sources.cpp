@@ -51,7 +51,7 @@ void check_citation(const std::string& citation, const std::string& at, const st
     const std::string text = part->str();
     std::smatch match;
     const std::string word = std::regex_search(text, match, kWord) ? match.str() : "";
-    if (like_key(word) ? !known(word, keys) : first && must_begin_with_key)
+    if (!known(word, keys) && (like_key(word) || (first && must_begin_with_key)))
       problems.push_back(fmt::format("{}: `{}` is no key of {}", at, word, kSourcesPage));
     first = false;
   }

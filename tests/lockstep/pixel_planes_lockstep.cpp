@@ -2,17 +2,16 @@
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
-#include <sys/wait.h>
-#include <unistd.h>
 
 #include <cmath>
 #include <cstring>
-#include <iostream>
+#include <tuple>
 
 #include "models/machines/pixel_planes/clocked.h"
 #include "models/machines/pixel_planes/cycle.h"
 #include "models/machines/pixel_planes/pixel_planes_map.h"
 #include "sim/base/error.h"
+#include "tests/support/in_child.h"
 
 namespace dendro::pixel_planes {
 namespace {
@@ -30,9 +29,10 @@ bool one_in(Random& random, unsigned n) { return below(random, n) == 0; }
 
 std::string in_words(const Spec& s) {
   return fmt::format(
-      "{}x{}x{} ports {} tick {} masked {} gap {} setup {} fifo {} refresh {} video {} word {} flop {} "
+      "{} renderers copy {} frame {}x{} {}x{}x{} ports {} tick {} masked {} gap {} setup {} fifo {} refresh {} video {} word {} flop {} "
       "interrupt {}",
-      s.array.width, s.array.height, s.array.memory_bits, s.array.ports, s.tick_ps, s.tree.masked,
+      s.renderers.count, s.renderers.copy_clocks, s.frame.width, s.frame.height, s.array.width, s.array.height,
+      s.array.memory_bits, s.array.ports, s.tick_ps, s.tree.masked,
       s.tree.gap_clocks, s.setup_clocks, s.fifo_words, s.refresh_interval_ps, s.video_interval_ps,
       s.host.word_ps, s.host.flop_ps, s.host.interrupt_ps);
 }
@@ -174,7 +174,15 @@ std::uint32_t random_coefficient(Random& random) {
   return bits;
 }
 
-std::vector<std::uint32_t> random_command(Random& random, const std::vector<unsigned>& entries) {
+/// Tiles of a frame of four times four, some outside a smaller one.
+std::vector<std::uint32_t> random_copy(Random& random) {
+  igc::Header h;
+  h.copy = true;
+  return {igc::pack(h), below(random, 4) | below(random, 4) << 16};
+}
+
+std::vector<std::uint32_t> random_command(Random& random, const std::vector<unsigned>& entries, bool copies) {
+  if (copies && one_in(random, 5)) return random_copy(random);
   igc::Header h;
   if (one_in(random, 3)) {
     h.register_write = true;
@@ -210,6 +218,7 @@ void play(Random random, const Spec& spec, HostPort& host, std::vector<std::int6
   const auto load_one = [&] {
     const std::vector<std::uint64_t> program = Writer(random, spec).program();
     if (next + program.size() > igc::kStoreWords) return;
+    if (spec.renderers.count > 1) host.write(kSelect, kAllRenderers, 0);
     load(host, program, next);
     entries.push_back(next);
     next += static_cast<unsigned>(program.size());
@@ -221,7 +230,7 @@ void play(Random random, const Spec& spec, HostPort& host, std::vector<std::int6
         host.wait_interrupt();
         break;
       case 1:
-        seen.push_back(host.read(one_in(random, 3) ? kFifo + below(random, 5) : kStatus, 0));
+        seen.push_back(host.read(one_in(random, 3) ? kFifo + below(random, 6) : kStatus, 0));
         if (one_in(random, 4)) seen.push_back(host.read(below(random, 2 * next + 4), 0));
         break;
       case 2:
@@ -238,7 +247,9 @@ void play(Random random, const Spec& spec, HostPort& host, std::vector<std::int6
                    one_in(random, 2) ? below(random, 80) : below(random, 70) << 16 | below(random, 70), 0);
         break;
       default: {
-        const std::vector<std::uint32_t> words = random_command(random, entries);
+        const std::vector<std::uint32_t> words = random_command(random, entries, spec.frame.exists());
+        if (spec.renderers.count > 1 && one_in(random, 2))
+          host.write(kSelect, below(random, static_cast<unsigned>(spec.renderers.count) + 1), 0);
         if (one_in(random, 2)) {
           host.dma_to(kFifo, words.data(), words.size(), 0, below(random, 2));
         } else {
@@ -257,14 +268,17 @@ void play(Random random, const Spec& spec, HostPort& host, std::vector<std::int6
 void expect_same_pixels(const Machine& a, const Machine& b, const Spec& spec, const std::string& names) {
   int told = 0;
   for (int low = 0; low < spec.array.memory_bits; low += 32)
-    for (int p = 0; p < spec.pixels(); ++p) {
-      const std::uint32_t x = a.peek(static_cast<std::uint32_t>(p), static_cast<unsigned>(low));
-      const std::uint32_t y = b.peek(static_cast<std::uint32_t>(p), static_cast<unsigned>(low));
-      if (x == y) continue;
-      ADD_FAILURE() << fmt::format("pixel {}, {} bits {} up: {:08x} {:08x}, {}", p % spec.array.width,
-                                   p / spec.array.width, low, x, y, names);
-      if (++told == 5) return;
-    }
+    for (const auto& [first, width, count] :
+         {std::tuple(0u, spec.array.width, spec.pixels() * spec.renderers.count),
+          std::tuple(kFramePixels, spec.frame.width, spec.frame.width * spec.frame.height)})
+      for (int p = 0; p < count; ++p) {
+        const std::uint32_t x = a.peek(first + static_cast<std::uint32_t>(p), static_cast<unsigned>(low));
+        const std::uint32_t y = b.peek(first + static_cast<std::uint32_t>(p), static_cast<unsigned>(low));
+        if (x == y) continue;
+        ADD_FAILURE() << fmt::format("pixel {}, {} of the {} bits {} up: {:08x} {:08x}, {}", p % width, p / width,
+                                     first == 0 ? "arrays" : "frame", low, x, y, names);
+        if (++told == 5) return;
+      }
 }
 
 void expect_same(const Machine& cycle, const Machine& clocked, const Spec& spec) {
@@ -276,25 +290,6 @@ void expect_same(const Machine& cycle, const Machine& clocked, const Spec& spec)
   EXPECT_EQ(p.width, q.width);
   EXPECT_EQ(p.height, q.height);
   EXPECT_TRUE(p.rgb == q.rgb) << "pictures differ";
-}
-
-void in_child(const std::function<void()>& body, const std::string& repeat) {
-  std::cout.flush();
-  const pid_t child = fork();
-  ASSERT_GE(child, 0);
-  if (child == 0) {
-    try {
-      body();
-    } catch (const std::exception& e) {
-      ADD_FAILURE() << e.what();
-    }
-    std::cout.flush();
-    std::fflush(nullptr);
-    _exit(::testing::Test::HasFailure() ? 1 : 0);
-  }
-  int status = 0;
-  ASSERT_EQ(waitpid(child, &status, 0), child);
-  ASSERT_TRUE(WIFEXITED(status) && WEXITSTATUS(status) == 0) << repeat;
 }
 
 void expect_lockstep(const Scenario& scenario, const std::string& repeat) {
@@ -345,10 +340,17 @@ Spec random_spec(Random& random) {
   return s;
 }
 
-Scenario random_programs(std::uint64_t seed) {
+Scenario random_programs(std::uint64_t seed, bool renderers) {
   Random random(seed);
   Scenario scenario;
   scenario.spec = random_spec(random);
+  if (renderers) {
+    Spec& s = scenario.spec;
+    s.renderers.count = static_cast<int>(1 + below(random, 4));
+    s.renderers.copy_clocks = one_in(random, 3) ? 0 : static_cast<int>(below(random, 400));
+    s.frame.width = s.array.width * static_cast<int>(1 + below(random, 3));
+    s.frame.height = s.array.height * static_cast<int>(1 + below(random, 3));
+  }
   scenario.options.tick_limit = 1 << 20;
   scenario.options.marks = {{0, "phase_zero.a"}, {1, "phase_one"}, {7, "other"}};
   scenario.program = [random, spec = scenario.spec](HostPort& host, std::vector<std::int64_t>& seen) {

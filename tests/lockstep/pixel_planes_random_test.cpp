@@ -79,7 +79,11 @@ Scenario hulls(std::uint64_t seed, const Spec& spec, unsigned bits, int count) {
 }
 
 TEST(PixelPlanesLockstep, RandomProgramsAreEqualAtCycleAndClockedInEveryBitAndClock) {
-  for_seeds(1000, 300, random_programs);
+  for_seeds(1000, 300, [](std::uint64_t seed) { return random_programs(seed); });
+}
+
+TEST(PixelPlanesLockstep, SeveralRenderersAndTheirFrameAreEqualAtCycleAndClockedInEveryBitAndClock) {
+  for_seeds(700000, 200, [](std::uint64_t seed) { return random_programs(seed, true); });
 }
 
 TEST(PixelPlanesLockstep, ShippedProgramsOnRandomHullsAreEqualForRandomParameters) {

@@ -6,6 +6,7 @@
 #include "sim/study/algorithms.h"
 #include "sim/study/run.h"
 #include "tests/lockstep/pixel_planes_lockstep.h"
+#include "tests/support/in_child.h"
 
 namespace dendro::pixel_planes {
 namespace {
@@ -71,6 +72,16 @@ TEST(PixelPlanesScenes, EveryVariantIsEqual) {
                              {quick, "parameters.array.ports=2", "parameters.array.memory_bits=96"}}) {
     SCOPED_TRACE(settings[1]);
     expect_levels_equal("icosahedron", settings);
+  }
+}
+
+TEST(PixelPlanesScenes, EqualisationIsEqualWhicheverWayRegionsAreSent) {
+  for (const char* method : {"polygon", "rows"}) {
+    SCOPED_TRACE(method);
+    expect_levels_equal("radiograph",
+                        {"parameters.host.program_load_ms=0.1", "parameters.array.width=64", "parameters.array.height=64",
+                         "image.width=64", "image.height=48", "adaptive_equalisation.region=16",
+                         std::string("adaptive_equalisation.method=") + method});
   }
 }
 

@@ -10,12 +10,12 @@ namespace {
 
 using namespace r3000;
 
-constexpr unsigned kK0 = 26, kK1 = 27, kAt = 1;
+constexpr unsigned kAt = 1;
 /// Bases of data, never written by random words: cached, the same uncached, mapped, the service block, nowhere.
-constexpr unsigned kCached = 16, kConflict = 17, kUncached = 18, kMapped = 19, kDevice = 20, kNothing = 21,
-                   kLoop = 22;
-constexpr std::uint32_t kData = 0x80020000, kMappedData = 0x00010000, kMappedCode = 0x00020000,
-                        kCode = 0x00120000;  ///< physical; what kMappedCode is mapped to
+constexpr unsigned kCachedBase = 16, kConflictBase = 17, kUncachedBase = 18, kMappedBase = 19, kDeviceBase = 20,
+                   kNothingBase = 21, kLoop = 22;
+constexpr std::uint32_t kDataArea = 0x80020000, kMappedData = 0x00010000, kMappedCode = 0x00020000,
+                        kCodeFrame = 0x00120000;  ///< physical; what kMappedCode is mapped to
 
 std::uint32_t mtc0(unsigned rt, unsigned reg) { return cop_word(0, kMtc, rt, reg); }
 std::uint32_t mfc0(unsigned rt, unsigned reg) { return cop_word(0, kMfc, rt, reg); }
@@ -23,7 +23,7 @@ std::uint32_t mfc0(unsigned rt, unsigned reg) { return cop_word(0, kMfc, rt, reg
 class Generator {
  public:
   explicit Generator(std::uint32_t seed) : random_(seed) {}
-  ProgramImage make();
+  CornerProgram make();
 
  private:
   unsigned draw(unsigned below) { return static_cast<unsigned>(random_() % below); }
@@ -87,11 +87,11 @@ std::uint32_t Generator::access() {
   const Kind kind = kKinds[draw(16)];
   const bool fpu = kind.major == kMajorLwc1 || kind.major == kMajorSwc1;
   const unsigned place = draw(100);
-  unsigned base = place < 50 ? kCached : place < 75 ? kConflict : place < 82 ? kUncached : kMapped;
+  unsigned base = place < 50 ? kCachedBase : place < 75 ? kConflictBase : place < 82 ? kUncachedBase : kMappedBase;
   std::int32_t offset = static_cast<std::int32_t>(draw(chance(60) ? 64 : 4096));
-  if (chance(8) && base == kMapped) offset += 4096 * static_cast<std::int32_t>(draw(7));
-  if (chance(2)) base = chance(50) ? kDevice : kNothing;
-  if (base == kDevice) offset = DENDRO_SERVICE_RESULT + 4 * static_cast<std::int32_t>(draw(7));
+  if (chance(8) && base == kMappedBase) offset += 4096 * static_cast<std::int32_t>(draw(7));
+  if (chance(2)) base = chance(50) ? kDeviceBase : kNothingBase;
+  if (base == kDeviceBase) offset = DENDRO_SERVICE_RESULT + 4 * static_cast<std::int32_t>(draw(7));
   if (!chance(2)) offset &= -static_cast<std::int32_t>(kind.size);
   return i_word(kind.major, fpu ? fp() : reg(), base, offset);
 }
@@ -188,7 +188,7 @@ void Generator::system() {
   nops(3);
   switch (draw(4)) {
     case 0:
-      word(mtc0(kMapped, kEntryHi));
+      word(mtc0(kMappedBase, kEntryHi));
       word(cp0_word(kFnTlbp));
       word(mfc0(reg(), kIndex));
       word(cp0_word(kFnTlbr));
@@ -220,16 +220,16 @@ void Generator::isolated() {
     const std::uint32_t at = draw(1024);
     switch (draw(4)) {
       case 0:
-        word(i_word(kMajorSw, reg(), chance(80) ? kCached : kUncached, static_cast<std::int32_t>(at & ~3u)));
+        word(i_word(kMajorSw, reg(), chance(80) ? kCachedBase : kUncachedBase, static_cast<std::int32_t>(at & ~3u)));
         break;
       case 1:
-        word(i_word(kMajorSb, reg(), kCached, static_cast<std::int32_t>(at)));
+        word(i_word(kMajorSb, reg(), kCachedBase, static_cast<std::int32_t>(at)));
         break;
       case 2:
-        word(i_word(kMajorSwl, reg(), kCached, static_cast<std::int32_t>(at)));
+        word(i_word(kMajorSwl, reg(), kCachedBase, static_cast<std::int32_t>(at)));
         break;
       default:
-        word(i_word(kMajorLw, reg(), kCached, static_cast<std::int32_t>(at & ~3u)));
+        word(i_word(kMajorLw, reg(), kCachedBase, static_cast<std::int32_t>(at & ~3u)));
     }
   }
   word(mtc0(kAt, kStatus));
@@ -250,18 +250,18 @@ void Generator::body(unsigned pieces) {
 }
 
 void Generator::prologue() {
-  constant(kCached, kData);
-  constant(kConflict, kData + (1u << (10 + draw(4))) + 4 * draw(8));
-  constant(kUncached, kData + 0x20000000);
-  constant(kMapped, kMappedData);
-  constant(kDevice, 0xA0000000 + DENDRO_SERVICE_BASE);
-  constant(kNothing, chance(50) ? 0x9C000000 : 0xBC000000);
+  constant(kCachedBase, kDataArea);
+  constant(kConflictBase, kDataArea + (1u << (10 + draw(4))) + 4 * draw(8));
+  constant(kUncachedBase, kDataArea + 0x20000000);
+  constant(kMappedBase, kMappedData);
+  constant(kDeviceBase, 0xA0000000 + DENDRO_SERVICE_BASE);
+  constant(kNothingBase, chance(50) ? 0x9C000000 : 0xBC000000);
   for (unsigned r = 2; r < 8; ++r) constant(r, chance(30) ? draw(64) : static_cast<std::uint32_t>(random_()));
   nops(2);
   word(mtc0(kAt, kStatus));
 }
 
-ProgramImage Generator::make() {
+CornerProgram Generator::make() {
   // The page's frame is 0x100000 + the page; N for every other 32 KB. Global, valid, dirty.
   const std::vector<std::uint32_t> refill = {
       mfc0(kK1, kEntryHi),
@@ -291,36 +291,23 @@ ProgramImage Generator::make() {
                                               cp0_word(kFnRfe)};
   system_words_ = chance(40);
   const unsigned where = draw(4);
-  base_ = where == 0 ? kCode + 0xA0000000 : where == 1 ? kMappedCode : kCode + 0x80000000;
+  base_ = where == 0 ? kCodeFrame + 0xA0000000 : where == 1 ? kMappedCode : kCodeFrame + 0x80000000;
   base_ += 4 * draw(64) + (chance(20) ? 4096 - 256 : 0);
   status_ = kStatusCu1 | kStatusCu0 | (chance(60) ? kStatusIec | kStatusIm : 0);
   constant(kAt, status_);
   prologue();
   body(8 + draw(40));
   nops(4);
-  word(i_word(kMajorSw, kCached, kDevice, DENDRO_SERVICE_CALL));
+  word(i_word(kMajorSw, kCachedBase, kDeviceBase, DENDRO_SERVICE_CALL));
   nops(20);
-  ProgramImage image;
-  const auto chunk = [&image](std::uint32_t physical, const std::vector<std::uint32_t>& words) {
-    ProgramImage::Chunk c;
-    c.physical = physical;
-    for (const std::uint32_t w : words)
-      for (unsigned i = 0; i < 4; ++i) c.bytes.push_back(static_cast<std::uint8_t>(w >> (24 - 8 * i)));
-    image.chunks.push_back(c);
-  };
-  chunk(0, refill);
-  chunk(0x80, general);
-  chunk((base_ & 0x3FFFF) | 0x100000, words_);
   std::vector<std::uint32_t> data(8192);
   for (std::uint32_t& w : data) w = chance(30) ? 0x3F800000 + draw(1 << 24) : static_cast<std::uint32_t>(random_());
-  chunk(kData & 0x1FFFFFFF, data);
-  image.start = base_;
-  return image;
+  return {{{0, refill}, {0x80, general}, {(base_ & 0x3FFFF) | 0x100000, words_}, {kDataArea & 0x1FFFFFFF, data}}, base_};
 }
 
 }  // namespace
 
-Spec random_spec(std::uint32_t seed) {
+Spec corner_spec(std::uint32_t seed) {
   std::mt19937 random(seed ^ 0x5EEDu);
   const auto draw = [&random](unsigned low, unsigned high) {
     return low + static_cast<unsigned>(random() % (high - low + 1));
@@ -360,10 +347,11 @@ Spec random_spec(std::uint32_t seed) {
   return s;
 }
 
-ProgramImage random_program(std::uint32_t seed) { return Generator(seed).make(); }
+CornerProgram corner_program(std::uint32_t seed) { return Generator(seed).make(); }
 
 service_block::CallResult ExitService::call(std::uint32_t, const std::array<std::uint32_t, 4>&,
-                                            std::vector<std::uint8_t>&) {
+                                            std::vector<std::uint8_t>& memory) {
+  digest = digest_of(memory);
   return {0, false, true};
 }
 

@@ -5,7 +5,7 @@
 #include <algorithm>
 
 #include "models/machines/sgi_4d35/cycle.h"
-#include "models/machines/sgi_4d35/function.h"
+#include "tests/lockstep/random_mips_program.h"
 
 namespace dendro::sgi_4d35 {
 namespace {
@@ -46,37 +46,40 @@ std::string state_difference(const r3000::State& a, const r3000::State& b) {
   return "";
 }
 
-std::string counter_difference(const ProgramResult& a, const ProgramResult& b) {
-  for (std::size_t u = 0; u < std::min(a.units.size(), b.units.size()); ++u)
-    for (std::size_t i = 0; i < a.units[u].values.size(); ++i)
-      if (a.units[u].values[i] != b.units[u].values.at(i))
-        return fmt::format("{}.{}: {} and {}", a.units[u].unit, a.units[u].values[i].first,
-                           a.units[u].values[i].second, b.units[u].values[i].second);
-  if (a.units.size() != b.units.size()) return "units";
+std::string counter_difference(const Ran& a, const Ran& b) {
+  for (const auto& [name, value] : a.counters)
+    if (b.counters.at(name) != value)
+      return fmt::format("{}: {} and {}", name, value, b.counters.at(name));
+  if (a.counters.size() != b.counters.size()) return "counters";
   if (a.cycles != b.cycles) return fmt::format("cycles: {} and {}", a.cycles, b.cycles);
+  if (a.stopped != b.stopped) return "only one stopped";
   return "";
 }
 
 }  // namespace
 
-Outcome run(Level level, const Spec& spec, const ProgramImage& image, service_block::Services& services,
-            std::uint64_t limit, bool log) {
-  Outcome outcome;
+Ran run_unlogged(const Spec& spec, const ProgramImage& image, std::uint64_t limit) {
+  Ran ran;
+  ExitService services;
   RunOptions options;
-  options.retired = log ? &outcome.retired : nullptr;
-  options.final_state = &outcome.state;
-  if (level == Level::kFunction)
-    outcome.result = run_function(spec, image, services, limit);
-  else
-    outcome.result = run_cycle(spec, image, services, limit, options);
-  return outcome;
+  options.final_state = &ran.state;
+  const ProgramResult result = run_cycle(spec, image, services, limit, options);
+  ran.cycles = static_cast<std::uint64_t>(result.cycles);
+  ran.instructions = result.instructions;
+  ran.stopped = result.stopped;
+  ran.memory_digest = services.digest;
+  for (const UnitStats& unit : result.units)
+    for (const auto& [name, value] : unit.values)
+      ran.counters[unit.unit.substr(unit.unit.find('.') + 1) + "." + name] = value;
+  return ran;
 }
 
-std::string difference(const Outcome& a, const Outcome& b) {
+std::string difference(const Ran& a, const Ran& b) {
   std::string text;
   if (!a.retired.empty() && !b.retired.empty()) text = retired_difference(a.retired, b.retired);
-  if (text.empty()) text = counter_difference(a.result, b.result);
+  if (text.empty()) text = counter_difference(a, b);
   if (text.empty()) text = state_difference(a.state, b.state);
+  if (text.empty() && a.memory_digest != b.memory_digest) text = "memory";
   return text;
 }
 

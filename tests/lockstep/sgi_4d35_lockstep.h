@@ -1,24 +1,16 @@
 #pragma once
 
 #include <string>
-#include <vector>
 
-#include "models/machines/sgi_4d35/run_options.h"
+#include "tests/sgi_4d35/timing_rig.h"
 
 namespace dendro::sgi_4d35 {
 
-/// What a level leaves of a run.
-struct Outcome {
-  ProgramResult result;
-  std::vector<Retired> retired;
-  r3000::State state;
-};
+/// Level `cycle` in this process, without the log of words: as fast as it can.
+Ran run_unlogged(const Spec& spec, const ProgramImage& image, std::uint64_t limit);
 
-/// With `log` the words that left MEM too.
-Outcome run(Level level, const Spec& spec, const ProgramImage& image, service_block::Services& services,
-            std::uint64_t limit, bool log);
-
-/// The first word, counter or register in which two levels differ; empty if none. Logs count where both have one.
-std::string difference(const Outcome& a, const Outcome& b);
+/// The first word, counter, register or the memory in which two runs differ; empty if none. Logs count where both have
+/// one.
+std::string difference(const Ran& a, const Ran& b);
 
 }  // namespace dendro::sgi_4d35

@@ -2,6 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <functional>
+#include <map>
+
 #include "models/machines/pixel_planes/bit_array.h"
 #include "models/machines/pixel_planes/word_engine.h"
 #include "tests/support/pixel_planes_rig.h"
@@ -198,23 +201,81 @@ TEST(WordEngine, AProgramOfItsOwnKindRunsOnTheBitsBetweenTheOthers) {
   expect_same_memory(wanted, engine.bits());
 }
 
-TEST(WordEngine, IndexedColoursEqualTheBits) {
-  std::mt19937_64 random(13);
-  const Case one(small_spec(), {12, false});
-  std::vector<Step> steps = random_stream(random, one.programs, one.layout, 64, 5);
+TEST(Texels, ATexelColoursThePixelsThatShowItAndNoOthers) {
+  std::mt19937_64 random(17);
+  const Spec spec = small_spec();
+  const tools::IgcImage image = tools::assemble_igc(shipped_source("texels.igc"), "texels.igc", {1, 128, {}});
+  igc::ControllerState controller;
+  std::copy(image.words.begin(), image.words.end(), controller.store.begin());
+  controller.registers[image.registers.at("coordinates")] = 3, controller.registers[image.registers.at("colour")] = 40;
+  ArrayState state(spec);
+  for (Plane& plane : state.memory)
+    for (std::uint64_t& word : plane) word = random();
+  const Case fields(spec, {});
+  std::vector<std::uint32_t> wanted;
+  for (int p = 0; p < 64 * 64; ++p) wanted.push_back(fields.field(state, p, 40, 24));
+  for (int n = 0; n < 40; ++n) {
+    igc::Command command;
+    // Every other texel is one that some pixel shows.
+    const auto any = static_cast<int>(random() % (64 * 64));
+    const std::uint32_t texel = n % 2 == 0 ? fields.field(state, any, 3, 15) : random() & 0x7FFF;
+    const std::uint32_t colour = random() & 0xFFFFFF;
+    command.constant = texel | static_cast<std::uint64_t>(colour) << 15;
+    const auto words = igc::expand(igc::program_at(controller, 0), command, controller, 0);
+    EXPECT_EQ(words.size(), 42u);
+    apply_words(spec, command, words, state);
+    for (int p = 0; p < 64 * 64; ++p)
+      if (fields.field(state, p, 3, 15) == texel) wanted[static_cast<std::size_t>(p)] = colour;
+    for (int p = 0; p < 64 * 64; ++p)
+      ASSERT_EQ(fields.field(state, p, 40, 24), wanted[static_cast<std::size_t>(p)]) << "texel " << n << ", pixel " << p;
+  }
+}
+
+/// The stream with front planes that leave their numbers. Of hulls that `keeps` chooses the numbers are not cleared.
+void leave_numbers(std::vector<Step>& steps, const Programs& programs, const std::function<bool()>& keeps) {
+  const std::map<std::string, std::string> others{
+      {"clear_hull", "clear_hull_index"}, {"front_plane", "front_plane_index"}, {"recolour", "recolour_index"}};
   std::uint64_t number = 0;
   for (Step& s : steps) {
-    const char* other = s.program == "front_plane" ? "front_plane_index" : s.program == "recolour" ? "recolour_index" : nullptr;
-    if (other == nullptr) continue;
-    s.program = other, s.command.header.entry = one.programs.entry(other);
-    s.command.constant = s.program == "recolour_index" ? s.command.constant << 12 | number++ % 7 : number++ % 7;
+    const auto other = others.find(s.program);
+    if (other == others.end() || (s.program == "clear_hull" && keeps())) continue;
+    s.program = other->second, s.command.header.entry = programs.entry(s.program);
+    const std::uint64_t low = number++ % 7;
+    s.command.constant = s.program == "recolour_index" ? s.command.constant << 12 | low : low;
   }
-  const ArrayState wanted = one.run_bits(steps);
-  for (const bool lazy : {false, true}) {
-    WordEngine engine = one.run(steps, lazy);
-    EXPECT_EQ(engine.counters().bitwise_commands, 0u);
-    expect_same_memory(wanted, engine.bits());
+}
+
+TEST(WordEngine, IndexedColoursEqualTheBits) {
+  for (std::uint64_t seed = 13; seed < 25; ++seed) {
+    SCOPED_TRACE(fmt::format("seed {}", seed));
+    std::mt19937_64 random(seed);
+    const Case one(small_spec(), {12, false});
+    std::vector<Step> steps = random_stream(random, one.programs, one.layout, 64, 5);
+    leave_numbers(steps, one.programs, [&] { return random() % 3 == 0; });
+    const ArrayState wanted = one.run_bits(steps);
+    for (const bool lazy : {false, true}) {
+      WordEngine engine = one.run(steps, lazy);
+      EXPECT_EQ(engine.counters().bitwise_commands, 0u);
+      expect_same_memory(wanted, engine.bits());
+    }
   }
+}
+
+TEST(WordEngine, AnIndexedHullThatClearsItsNumbersLeavesTilesAlone) {
+  std::uint64_t evaluated[2] = {0, 0}, all = 0;
+  for (const bool keeps : {false, true}) {
+    std::mt19937_64 random(41);
+    const Case one(small_spec(256), {12, false});
+    std::vector<Step> steps = random_stream(random, one.programs, one.layout, 256, 40);
+    leave_numbers(steps, one.programs, [&] { return keeps; });
+    steps.push_back(step(one.programs, "clear_hull"));
+    WordEngine lazy = one.run(steps, true), full = one.run(steps, false);
+    lazy.peek(0, 0);  // everything before is applied or waits
+    evaluated[keeps] = lazy.counters().evaluated, all = full.counters().pixel_operations;
+    expect_same_memory(full.bits(), lazy.bits());
+  }
+  EXPECT_LT(evaluated[false], all / 2);
+  EXPECT_LT(evaluated[false], evaluated[true]);
 }
 
 }  // namespace

@@ -7,16 +7,16 @@
 namespace dendro::pixel_planes {
 namespace {
 
-std::string source(const std::string& name) {
-  std::ifstream file(std::string(IGC_SOURCES) + "/" + name);
-  return {std::istreambuf_iterator<char>(file), {}};
-}
-
 std::int64_t uniform(std::mt19937_64& random, std::int64_t low, std::int64_t high) {
   return std::uniform_int_distribution<std::int64_t>(low, high)(random);
 }
 
 }  // namespace
+
+std::string shipped_source(const std::string& name) {
+  std::ifstream file(std::string(IGC_SOURCES) + "/" + name);
+  return {std::istreambuf_iterator<char>(file), {}};
+}
 
 Spec small_spec(int side, int ports, int memory_bits) {
   Spec spec;
@@ -28,7 +28,7 @@ Spec small_spec(int side, int ports, int memory_bits) {
 Programs::Programs(int ports) {
   const char* const names[] = {"half_space.igc", "two_ports.igc"};
   for (int k = 0; k < ports; ++k) {
-    const tools::IgcImage image = tools::assemble_igc(source(names[k]), names[k], {ports, 256, {}});
+    const tools::IgcImage image = tools::assemble_igc(shipped_source(names[k]), names[k], {ports, 256, {}});
     for (const auto& [name, program] : image.programs) {
       entries_[name] = program;
       entries_[name].entry += static_cast<unsigned>(words_.size());

@@ -24,6 +24,9 @@ struct Layout {
   }
 };
 
+/// The text of a source that ships in firmware/half_space/pixel_planes.
+std::string shipped_source(const std::string& name);
+
 Spec small_spec(int side = 64, int ports = 1, int memory_bits = 128);
 
 /// half_space.igc, and with two ports two_ports.igc behind it: entries by name.

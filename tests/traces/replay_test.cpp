@@ -7,6 +7,7 @@
 #include <set>
 #include <sstream>
 
+#include "models/machines/pixel_planes/pixel_planes.h"
 #include "models/machines/rds3000/rds3000.h"
 #include "sim/base/error.h"
 #include "sim/study/trace.h"
@@ -15,12 +16,15 @@
 namespace dendro::study {
 namespace {
 
+constexpr const char* kMachines[] = {"pixel_planes", "rds3000"};
+
+/// `file`: from the folder of all traces on, as "rds3000/nested-loop.txt".
 struct Entry {
   std::string file, record;
   bool repeat = false;
 };
 
-Catalogue catalogue() { return {{rds3000::rds3000_type()}, algorithms(), SHARE}; }
+Catalogue catalogue() { return {{rds3000::rds3000_type(), pixel_planes::pixel_planes_type()}, algorithms(), SHARE}; }
 
 std::string path_of(const std::string& file) { return std::string(TRACES) + "/" + file; }
 
@@ -30,11 +34,13 @@ std::string text_of(const config::Node& entry, const std::string& key) {
 }
 
 std::vector<Entry> manifest() {
-  const std::string path = path_of("manifest.toml");
-  const config::Node root = config::parse_toml(config::read_text({false, path}, {}), path);
   std::vector<Entry> entries;
-  for (const config::Node& entry : root.member("trace")->items)
-    entries.push_back({text_of(entry, "file"), text_of(entry, "record"), entry.member("repeat") != nullptr});
+  for (const std::string machine : kMachines) {
+    const std::string path = path_of(machine + "/manifest.toml");
+    const config::Node root = config::parse_toml(config::read_text({false, path}, {}), path);
+    for (const config::Node& entry : root.member("trace")->items)
+      entries.push_back({machine + "/" + text_of(entry, "file"), text_of(entry, "record"), entry.member("repeat") != nullptr});
+  }
   return entries;
 }
 
@@ -61,12 +67,12 @@ std::string printable(const std::string& file) {
 TEST(Manifest, ListsEveryTraceOfItsFolderAndNoOther) {
   std::set<std::string> listed, there;
   for (const std::string& name : files()) EXPECT_TRUE(listed.insert(name).second) << name << " twice";
-  for (const auto& entry : std::filesystem::directory_iterator(TRACES)) {
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(TRACES)) {
     const std::string ending = entry.path().extension().string();
-    if (ending == ".trace" || ending == ".txt") there.insert(entry.path().filename().string());
+    if (ending == ".trace" || ending == ".txt") there.insert(entry.path().lexically_relative(TRACES).string());
   }
   EXPECT_EQ(listed, there);
-  EXPECT_GE(hand_written().size(), 8u);
+  EXPECT_GE(hand_written().size(), 16u);
 }
 
 class EveryTrace : public ::testing::TestWithParam<std::string> {};
@@ -143,10 +149,10 @@ TEST_P(HandWrittenTrace, AnyExpectationThatIsChangedIsFoundAtItsLine) {
 INSTANTIATE_TEST_SUITE_P(Traces, HandWrittenTrace, ::testing::ValuesIn(hand_written()),
                          [](const auto& instance) { return printable(instance.param); });
 
-/// The arguments of a manifest's `record` line that records a program of the folder.
-RecordArguments arguments_of(const std::string& line) {
+/// The arguments of a manifest's `record` line that records a program of the folder of the machine.
+RecordArguments arguments_of(const Entry& entry) {
   RecordArguments arguments;
-  std::istringstream words(line);
+  std::istringstream words(entry.record);
   std::string word;
   while (words >> word) {
     std::string value;
@@ -154,7 +160,8 @@ RecordArguments arguments_of(const std::string& line) {
     if (word == "--exec") {
       arguments.exec.machine = value;
       words >> value;
-      arguments.exec.program = path_of(value);
+      arguments.exec.program = path_of(entry.file.substr(0, entry.file.find('/') + 1) + value);
+      while (words >> std::ws && words.peek() != '-' && words >> value) arguments.exec.arguments.push_back(value);
     } else if (word == "--set") {
       arguments.exec.settings.push_back(value);
     } else if (word == "--boundary") {
@@ -183,11 +190,11 @@ TEST(Repeated, RecordingAProgramAgainGivesTheSameTrace) {
     if (!entry.repeat) continue;
     ++repeated;
     SCOPED_TRACE(entry.file);
-    trace::Reader again(record_trace(catalogue(), arguments_of(entry.record), nullptr).bytes, "again");
+    trace::Reader again(record_trace(catalogue(), arguments_of(entry), nullptr).bytes, "again");
     const auto kept = open_trace(catalogue(), path_of(entry.file));
     EXPECT_EQ(printed(*kept), printed(again));
   }
-  EXPECT_GE(repeated, 3);
+  EXPECT_GE(repeated, 8);
 }
 
 TEST(WhatIf, AnotherMachineDiffersFromTheTraceAndSaysWhere) {
@@ -195,9 +202,13 @@ TEST(WhatIf, AnotherMachineDiffersFromTheTraceAndSaysWhere) {
     const ReplayOutput output = replay_trace(catalogue(), {path_of(file), "cycle", {setting}});
     return output.result.difference.value_or("");
   };
-  EXPECT_NE(std::string::npos, difference("waits-for-data.txt", "processor.accesses_in_flight=0").find("waits-for-data.txt:15:"));
-  EXPECT_NE(std::string::npos, difference("writes-to-one-card.txt", "frame_memory.card_busy_ticks=3").find("writes-to-one-card.txt:7:"));
-  EXPECT_NE(std::string::npos, difference("dma-pace.txt", "host.dma_start_ms=2.0").find("dma-pace.txt:8:"));
+  EXPECT_NE(std::string::npos, difference("rds3000/waits-for-data.txt", "processor.accesses_in_flight=0").find("waits-for-data.txt:15:"));
+  EXPECT_NE(std::string::npos, difference("rds3000/writes-to-one-card.txt", "frame_memory.card_busy_ticks=3").find("writes-to-one-card.txt:7:"));
+  EXPECT_NE(std::string::npos, difference("rds3000/dma-pace.txt", "host.dma_start_ms=2.0").find("dma-pace.txt:8:"));
+  EXPECT_NE(std::string::npos, difference("pixel_planes/a-command-is-taken.txt", "translator.setup_clocks=5").find("a-command-is-taken.txt:19:"));
+  EXPECT_NE(std::string::npos, difference("pixel_planes/a-full-fifo-stalls.txt", "fifo.depth_words=9").find("a-full-fifo-stalls.txt:25:"));
+  EXPECT_NE(std::string::npos, difference("pixel_planes/two-ports-add.txt", "array.ports=1").find("two-ports-add.txt:22:"));
+  EXPECT_NE(std::string::npos, difference("pixel_planes/a-plane-in-pixels.txt", "array.video_interval_ns=1356.3").find("a-plane-in-pixels.txt:19:"));
 }
 
 }  // namespace

@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
-#include <fnmatch.h>
 
 #include <algorithm>
 #include <cmath>
@@ -12,6 +11,7 @@
 #include "firmware/half_space/host/tree_object.h"
 #include "sim/base/error.h"
 #include "sim/scene/mesh.h"
+#include "sim/scene/mesh_groups.h"
 #include "sim/scene/view.h"
 
 namespace dendro::half_space {
@@ -32,22 +32,14 @@ constexpr std::size_t kDefaultPlanes = 32;
 /// The corners of the triangles in the groups that the object's pattern for `meaning` names.
 std::vector<glm::dvec3> points_of(const scene::Mesh& mesh, const scene::Object& object,
                                   const std::string& meaning) {
-  const std::string& pattern = object.groups.at(meaning);
+  const std::vector<bool> in_group = scene::triangles_in_groups(mesh, object, meaning);
   std::vector<bool> wanted(mesh.vertices.size(), false);
-  for (const scene::MeshGroup& group : mesh.groups)
-    if (::fnmatch(pattern.c_str(), group.name.c_str(), 0) == 0)
-      for (std::size_t i = group.first; i < group.first + group.count; ++i)
-        for (const std::uint32_t corner : mesh.triangles[i]) wanted[corner] = true;
+  for (std::size_t i = 0; i < in_group.size(); ++i)
+    if (in_group[i])
+      for (const std::uint32_t corner : mesh.triangles[i]) wanted[corner] = true;
   std::vector<glm::dvec3> points;
   for (std::size_t i = 0; i < wanted.size(); ++i)
     if (wanted[i]) points.push_back(mesh.vertices[i]);
-  if (points.empty()) {
-    std::vector<std::string> names;
-    for (const scene::MeshGroup& group : mesh.groups) names.push_back(group.name);
-    blame(object, "object.groups",
-          fmt::format("{}: no group is named like {} = \"{}\"; there are {}", object.mesh, meaning, pattern,
-                      names.empty() ? "none" : fmt::format("{}", fmt::join(names, ", "))));
-  }
   return points;
 }
 

@@ -64,7 +64,7 @@ class Preparation {
   }
 
   void make_shades() {
-    const glm::dvec3 light = to_light(scene_);
+    const glm::dvec3 light = scene::to_light(scene_);
     const double ambient = scene_.lights.empty() ? 0.3 : scene_.lights[0].ambient;
     const double diffuse = options_.real("diffuse", 1.0 - ambient, 0, 10);
     const std::vector<double> colour = options_.vector("colour", {1, 1, 1}, 0, 1);

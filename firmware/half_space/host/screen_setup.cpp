@@ -31,9 +31,7 @@ void check_picture(const scene::Scene& scene) {
           at.file, at.line, key,
           fmt::format("{} is outside the allowed 1..{} pixels of a 24-bit frame", side, kLargestSide));
   if (scene.objects.empty()) throw UserError(scene.file, 0, "object", "the scene has no object");
-  if (scene.lights.size() > 1)
-    throw UserError(scene.lights[1].where.file, scene.lights[1].where.line, "light",
-                    fmt::format("half_space takes at most one light, not {}", scene.lights.size()));
+  scene::check_one_light(scene, "half_space");
 }
 
 /// Screen planes from world planes. The linear part of a parallel view is a rotation with scaled rows, so its
@@ -78,23 +76,6 @@ std::optional<Box> box_around(const std::vector<glm::dvec3>& corners, int width,
           std::min(height - 1, pixel(std::ceil(highest.y) + 1, height))};
   if (box.x0 > box.x1 || box.y0 > box.y1) return std::nullopt;
   return box;
-}
-
-/// The direction to the light in world space; without a light the one of FG86's chapter: left, up, to the
-/// viewer.
-glm::dvec3 to_light(const scene::Scene& scene) {
-  if (scene.lights.empty()) {
-    const scene::CameraAxes axes(scene.camera);
-    return (-axes.right + 2.0 * axes.up - 2.0 * axes.forward) / 3.0;
-  }
-  const scene::Light& light = scene.lights[0];
-  const glm::dvec3 direction(light.direction[0], light.direction[1], light.direction[2]);
-  const double length = glm::length(direction);
-  if (!(length > 0) || !std::isfinite(length))
-    throw UserError(light.where.file, light.where.line, "light.direction", "must be finite and not zero");
-  if (!(light.ambient >= 0 && light.ambient <= 1))
-    throw UserError(light.where.file, light.where.line, "light.ambient", "must be in 0..1");
-  return -direction / length;
 }
 
 Rgb to_rgb(const std::vector<double>& colour, double shade) {

@@ -33,7 +33,7 @@ struct DepthMap {
   double scale = 1, shift = 0;
 };
 
-/// Throws UserError for a picture larger than the frame, no object, or more than one light.
+/// Throws UserError for a picture larger than the frame no object, or more than one light.
 void check_picture(const scene::Scene& scene);
 
 /// Flops of finding the corners of N planes by cutting the polyhedron with one plane after another: every
@@ -49,10 +49,6 @@ DepthMap map_depth(double nearest, double farthest, double margin, int maxdepth)
 
 /// The pixels of the picture that a polyhedron with these corners can cover; none when it is outside.
 std::optional<Box> box_around(const std::vector<glm::dvec3>& corners, int width, int height);
-
-/// The direction to the light in world space; without a light the one of FG86's chapter: left, up, to the
-/// viewer. Throws UserError.
-glm::dvec3 to_light(const scene::Scene& scene);
 
 Rgb to_rgb(const std::vector<double>& colour, double shade);
 

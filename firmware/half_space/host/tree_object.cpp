@@ -9,6 +9,7 @@
 #include <random>
 
 #include "sim/base/error.h"
+#include "sim/base/random.h"
 
 namespace dendro::half_space {
 namespace {
@@ -19,10 +20,6 @@ constexpr int kMostStarts = 64;
 constexpr double kShortestStart = 1e-9, kLongestStart = 1e9;  // their squares are far from a double's ends
 constexpr int kMostGenerations = 8;
 constexpr int kMostCopies = 2000;
-
-double uniform(std::mt19937_64& random, double low, double high) {
-  return low + (high - low) * static_cast<double>(random() >> 11) * 0x1p-53;
-}
 
 // Defaults and ranges: ASSUMED DEV-045
 GrowthParameters read_growth(const scene::Object& object, scene::Options& options) {
@@ -86,11 +83,11 @@ std::vector<Tree> lay_out(const Copies& copies, const Tree& first) {
   for (int i = 0; i < copies.count; ++i) {
     Tree tree = first;
     tree.growth.seed = random();
-    const double column = i % columns + uniform(random, 0, 1), row = i / columns + uniform(random, 0, 1);
+    const double column = i % columns + base::uniform(random, 0, 1), row = i / columns + base::uniform(random, 0, 1);
     tree.placed.at[0] += copies.area[0] * (column / columns - 0.5);
     tree.placed.at[2] += copies.area[1] * (row / rows - 0.5);
-    tree.placed.rotate[1] += uniform(random, 0, 360);
-    tree.placed.scale *= uniform(random, copies.scale[0], copies.scale[1]);
+    tree.placed.rotate[1] += base::uniform(random, 0, 360);
+    tree.placed.scale *= base::uniform(random, copies.scale[0], copies.scale[1]);
     trees.push_back(std::move(tree));
   }
   return trees;

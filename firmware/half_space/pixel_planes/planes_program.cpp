@@ -29,13 +29,13 @@ class PlanesRun {
   }
 
   void draw(const StreamHull& hull) {
-    driver_.run("clear_hull");
     const bool index = prepared_.layout.colouring == Colouring::kIndex;
-    int number = 0;
+    driver_.run(index ? "clear_hull_index" : "clear_hull");
+    std::uint64_t number = 0;
     for (const StreamPlane& plane : hull.planes) {
       set_up_plane();
       if (plane.kind == PlaneKind::kFront && index)
-        stream("front_plane_index", plane, static_cast<std::uint64_t>(++number));
+        stream("front_plane_index", plane, number++);
       else
         stream(program_of(plane.kind), plane, std::nullopt);
     }
@@ -79,7 +79,7 @@ class PlanesRun {
     for (const StreamPlane& plane : hull.planes)
       if (plane.kind == PlaneKind::kFront)
         driver_.run("recolour_index",
-                    ++number | bits_of(prepared_.faces[static_cast<std::size_t>(plane.face)]) << kIndexBits);
+                    number++ | bits_of(prepared_.faces[static_cast<std::size_t>(plane.face)]) << kIndexBits);
   }
 
   HostPort& host_;

@@ -68,7 +68,7 @@ class Preparation {
         site_(site) {}
 
   PreparedPlanes make() {
-    check_size();
+    lib::check_picture_fits(scene_.image, site_);
     check_mesh_options(scene_, options_);
     result_.width = scene_.image.width, result_.height = scene_.image.height;
     result_.layout = choose_layout(scene_, site_);
@@ -85,14 +85,6 @@ class Preparation {
   }
 
  private:
-  void check_size() const {
-    const scene::Where& at = scene_.image.where;
-    for (const auto& [key, side, most] : {std::tuple("image.width", scene_.image.width, site_.width),
-                                          {"image.height", scene_.image.height, site_.height}})
-      if (side > most)
-        throw UserError(at.file, at.line, key, fmt::format("{} is more than the {} pixels of the array", side, most));
-  }
-
   /// ASSUMED DEV-082
   void read_streams() {
     const int usual = std::max(log2_of(site_.width), log2_of(site_.height)) + 1;
@@ -146,7 +138,7 @@ class Preparation {
   }
 
   void read_shading() {
-    light_ = to_light(scene_);
+    light_ = scene::to_light(scene_);
     ambient_ = scene_.lights.empty() ? 0.3 : scene_.lights[0].ambient;
     diffuse_ = options_.real("diffuse", 1.0 - ambient_, 0, 10);
     colour_ = options_.vector("colour", {1, 1, 1}, 0, 1);
@@ -189,7 +181,7 @@ class Preparation {
     for (const StreamHull& hull : result_.hulls) {
       const auto fronts = std::count_if(hull.planes.begin(), hull.planes.end(),
                                         [](const StreamPlane& p) { return p.kind == PlaneKind::kFront; });
-      if (fronts >= 1 << kIndexBits)
+      if (fronts > 1 << kIndexBits)
         throw UserError(scene_.file, 0, "object",
                         fmt::format("{} front planes are more than {} bits can tell apart", fronts, kIndexBits));
     }

@@ -6,18 +6,14 @@
 #include <vector>
 
 #include "firmware/half_space/host/plane_program.h"
+#include "firmware/lib/pixel_planes/array_job.h"
 #include "firmware/lib/pixel_planes/igc_driver.h"
 #include "models/parts/host/host_port.h"
 #include "sim/scene/scene.h"
 
 namespace dendro::half_space {
 
-/// What the host program must know of the pixel array it drives.
-struct ArraySite {
-  int width = 512, height = 512;  ///< pixels
-  int memory_bits = 72;
-  int ports = 1;
-};
+using lib::ArraySite;
 
 enum class StreamVariant { kTwoStream, kScratch };  ///< how a plane gets into its register
 enum class Colouring { kRecolour, kIndex };         ///< how a front plane's colour gets into the picture

@@ -7,6 +7,7 @@
 #include "firmware/half_space/host/hulls_layout.h"
 #include "firmware/half_space/reference/reference.h"
 #include "sim/base/check.h"
+#include "sim/scene/psnr.h"
 
 namespace dendro::half_space {
 namespace {
@@ -171,7 +172,7 @@ ErrorReport compare(const HullsReference& reference, const std::vector<std::uint
       report.max_depth_error =
           std::max(report.max_depth_error, std::abs(nearest[i] + 0.5 - reference.depth[i]));
   }
-  report.psnr_db = psnr(reference.rgb, rgb);
+  report.psnr_db = scene::psnr(reference.rgb, rgb);
   report.extra = {{"outside_enclosure", static_cast<double>(outside)},
                   {"unbounded_pixels", static_cast<double>(unbounded.unbounded)},
                   {"unbounded_share", unbounded.share()}};

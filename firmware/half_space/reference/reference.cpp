@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "sim/base/check.h"
+#include "sim/scene/psnr.h"
 
 namespace dendro::half_space {
 namespace {
@@ -49,13 +50,6 @@ bool is_interior(const ReferencePicture& picture, int x, int y) {
 
 }  // namespace
 
-std::optional<double> psnr(const std::vector<std::uint8_t>& a, const std::uint8_t* b) {
-  double squares = 0;
-  for (std::size_t i = 0; i < a.size(); ++i) squares += std::pow(double(a[i]) - double(b[i]), 2);
-  if (squares == 0) return std::nullopt;
-  return 10.0 * std::log10(255.0 * 255.0 * static_cast<double>(a.size()) / squares);
-}
-
 ReferencePicture render_reference(const std::vector<ScreenPlane>& planes, const std::vector<Rgb>& shades,
                                   int width, int height, int maxdepth) {
   ReferencePicture picture{width, height, {}, {}, {}};
@@ -99,7 +93,7 @@ ErrorReport compare(const ReferencePicture& reference, const SimulatedPicture& s
         if (error > report.max_depth_error) report.max_depth_error = error, worst_x = x, worst_y = y;
       }
     }
-  report.psnr_db = psnr(reference.rgb, rgb);
+  report.psnr_db = scene::psnr(reference.rgb, rgb);
   report.extra = {{"wrong_pixels_far", static_cast<double>(far_away)},
                   {"worst_x", static_cast<double>(worst_x)},
                   {"worst_y", static_cast<double>(worst_y)}};

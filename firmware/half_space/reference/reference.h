@@ -33,9 +33,6 @@ struct SimulatedPicture {
 
 SimulatedPicture read_back(const MachineView& machine, int width, int height);
 
-/// Peak signal-to-noise ratio of 8-bit samples; none: identical.
-std::optional<double> psnr(const std::vector<std::uint8_t>& a, const std::uint8_t* b);
-
 /// Figures: psnr over the shown RGB (the machine's `rgb`, same size); max_depth_error = largest |front + 1/2
 /// - z| over pixels whose face agrees; wrong_pixels = coverage or face differs; extra: wrong_pixels_far =
 /// those among them whose 8 neighbours all show the same face in the reference, worst_x, worst_y = the pixel

@@ -22,4 +22,13 @@ std::vector<stability::Case> stability_cases() {
   };
 }
 
+std::vector<stability::Case> planes_stability_cases() {
+  return {
+      {"N-P1", "planes nearly edge-on: guard bits of a stream, and one fewer", planes_guard},
+      {"N-P2", "fraction bits of a stream against the error of depth", planes_fraction},
+      {"N-P3", "skews and dead clocks of the tree, and one clock fewer", planes_tree},
+      {"N-P4", "depth fields of 12 to 24 bits: pixels lost at the silhouette", planes_width},
+  };
+}
+
 }  // namespace dendro::half_space

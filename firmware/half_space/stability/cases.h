@@ -9,6 +9,9 @@ namespace dendro::half_space {
 /// The hard numerical cases [algorithms.md 1.8] and metamorphic tests [5] of the half-space firmware.
 std::vector<stability::Case> stability_cases();
 
+/// The same firmware's cases on a bit-serial pixel array.
+std::vector<stability::Case> planes_stability_cases();
+
 // One case each; what it measures stands beside its table in the file of its name.
 stability::Result steep_planes(const stability::Rig& rig, std::uint64_t seed);     // N-A1
 stability::Result depth_drift(const stability::Rig& rig, std::uint64_t seed);      // N-A2
@@ -25,5 +28,9 @@ stability::Result quarter_turn(const stability::Rig& rig, std::uint64_t seed);  
 stability::Result scaled_by_two(const stability::Rig& rig, std::uint64_t seed);    // X3
 stability::Result mirrored(const stability::Rig& rig, std::uint64_t seed);         // X4
 stability::Result tiled(const stability::Rig& rig, std::uint64_t seed);            // X6
+stability::Result planes_guard(const stability::Rig& rig, std::uint64_t seed);     // N-P1
+stability::Result planes_fraction(const stability::Rig& rig, std::uint64_t seed);  // N-P2
+stability::Result planes_tree(const stability::Rig& rig, std::uint64_t seed);      // N-P3
+stability::Result planes_width(const stability::Rig& rig, std::uint64_t seed);     // N-P4
 
 }  // namespace dendro::half_space

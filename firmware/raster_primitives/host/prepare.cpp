@@ -67,7 +67,7 @@ class Preparation {
   Preparation(const scene::Scene& scene, const ArraySite& site)
       : scene_(scene), options_(scene.options), site_(site), shader_(scene) {
     p_.layout = choose_layout(scene, site);
-    check_picture();
+    lib::check_picture_fits(scene.image, site);
     p_.width = scene.image.width, p_.height = scene.image.height;
     p_.rules = {site.width, site.height, p_.layout.depth_bits,
                 static_cast<unsigned>(options_.integer("fraction_bits", 10, 6, 14)), 2};
@@ -112,14 +112,6 @@ class Preparation {
  private:
   static std::array<double, 3> to_bytes(const std::vector<double>& colour) {
     return {std::round(255 * colour[0]), std::round(255 * colour[1]), std::round(255 * colour[2])};
-  }
-
-  void check_picture() const {
-    const scene::Where& at = scene_.image.where;
-    for (const auto& [key, side, most] : {std::tuple("image.width", scene_.image.width, site_.width),
-                                          std::tuple("image.height", scene_.image.height, site_.height)})
-      if (side < 1 || side > most)
-        throw UserError(at.file, at.line, key, fmt::format("{} is outside the array's 1..{} pixels", side, most));
   }
 
   void check_colour(const char* key, const std::vector<double>& colour) const {

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "firmware/lib/pixel_planes/array_job.h"
 #include "firmware/raster_primitives/host/layout.h"
 #include "firmware/raster_primitives/host/shadow_setup.h"
 #include "firmware/raster_primitives/host/sphere_setup.h"
@@ -13,10 +14,7 @@
 
 namespace dendro::raster_primitives {
 
-/// What the host must know of the pixel array it drives.
-struct ArraySite {
-  int width = 512, height = 512, memory_bits = 72;
-};
+using lib::ArraySite;
 
 /// A triangle on the screen before it is set up.
 struct ScreenTriangle {

@@ -1,33 +1,15 @@
 #include "firmware/raster_primitives/host/shade.h"
 
-#include <fmt/format.h>
-
-#include <cmath>
 #include <glm/geometric.hpp>
 
-#include "sim/base/error.h"
 #include "sim/scene/view.h"
 
 namespace dendro::raster_primitives {
 
 Shader::Shader(const scene::Scene& scene) {
-  if (scene.lights.size() > 1)
-    throw UserError(scene.lights[1].where.file, scene.lights[1].where.line, "light",
-                    fmt::format("raster_primitives takes at most one light, not {}", scene.lights.size()));
-  if (scene.lights.empty()) {
-    const scene::CameraAxes axes(scene.camera);
-    to_light_ = glm::normalize(-axes.right + 2.0 * axes.up - 2.0 * axes.forward);
-    return;
-  }
-  const scene::Light& light = scene.lights[0];
-  const glm::dvec3 direction(light.direction[0], light.direction[1], light.direction[2]);
-  const double length = glm::length(direction);
-  if (!(length > 0) || !std::isfinite(length))
-    throw UserError(light.where.file, light.where.line, "light.direction", "must be finite and not zero");
-  if (!(light.ambient >= 0 && light.ambient <= 1))
-    throw UserError(light.where.file, light.where.line, "light.ambient", "must be in 0..1");
-  to_light_ = -direction / length;
-  ambient_ = light.ambient;
+  scene::check_one_light(scene, "raster_primitives");
+  to_light_ = scene::to_light(scene);
+  if (!scene.lights.empty()) ambient_ = scene.lights[0].ambient;
 }
 
 std::array<double, 3> Shader::operator()(const glm::dvec3& normal, const std::vector<double>& colour) const {

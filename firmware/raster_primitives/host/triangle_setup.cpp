@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "firmware/lib/pixel_planes/array_job.h"
 #include "sim/base/check.h"
 
 namespace dendro::raster_primitives {
@@ -11,18 +12,6 @@ namespace {
 struct Snapped {
   std::int64_t x, y;
 };
-
-/// Bits, sign included, that hold an expression with integer coefficients at every pixel.
-unsigned guard_of(std::int64_t a, std::int64_t b, std::int64_t c, const TriangleRules& rules) {
-  std::int64_t low = c, high = c;
-  for (const auto& [slope, side] : {std::pair(a, rules.width), std::pair(b, rules.height)}) {
-    const std::int64_t reach = slope * (side - 1);
-    low += std::min<std::int64_t>(0, reach), high += std::max<std::int64_t>(0, reach);
-  }
-  unsigned bits = 1;
-  while (low < -(std::int64_t{1} << (bits - 1)) || high >= std::int64_t{1} << (bits - 1)) ++bits;
-  return bits;
-}
 
 /// Inside on its left, seen along (dx, dy) with y down; of two triangles that share it one has its pixels.
 Stream edge(const Snapped& p, const Snapped& q, const TriangleRules& rules) {
@@ -34,7 +23,7 @@ Stream edge(const Snapped& p, const Snapped& q, const TriangleRules& rules) {
   Stream out;
   out.at.a = static_cast<float>(-dy), out.at.b = static_cast<float>(dx), out.at.c = static_cast<float>(c);
   DENDRO_CHECK(static_cast<std::int64_t>(out.at.c) == c, "edge constant {}", c);
-  out.guard = guard_of(-dy, dx, c, rules);
+  out.guard = lib::signed_bits(-dy, dx, c, rules.width, rules.height);
   return out;
 }
 

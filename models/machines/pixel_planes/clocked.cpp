@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "sim/base/check.h"
 #include "sim/base/error.h"
 
@@ -13,16 +15,6 @@ constexpr std::int64_t kProgressClocks = std::int64_t{1} << 20;
 std::int64_t now_in_ps() { return static_cast<std::int64_t>(sc_core::sc_time_stamp().value()); }
 sc_core::sc_time ps(std::int64_t t) { return sc_core::sc_time::from_value(static_cast<sc_dt::uint64>(t)); }
 
-igc::PlanesSpec planes_of(const Spec& spec) {
-  igc::PlanesSpec planes;
-  planes.levels_x = static_cast<unsigned>(spec.levels_x()),
-  planes.levels_y = static_cast<unsigned>(spec.levels_y());
-  planes.memory_bits = static_cast<unsigned>(spec.array.memory_bits);
-  planes.ports = static_cast<unsigned>(spec.array.ports);
-  planes.masked = spec.tree.masked;
-  return planes;
-}
-
 }  // namespace
 
 ClockedEngine::ClockedEngine(sc_core::sc_module_name name, const Spec& spec, const MachineOptions& options)
@@ -30,14 +22,9 @@ ClockedEngine::ClockedEngine(sc_core::sc_module_name name, const Spec& spec, con
       spec_(spec),
       options_(options),
       tick_ps_(spec.tick_ps),
-      translator_(spec.setup_clocks),
-      controller_(spec.tree.gap_clocks),
-      feed_(static_cast<unsigned>(spec.levels_x() - 1), static_cast<unsigned>(spec.latency() - 1),
-            static_cast<unsigned>(spec.tree.gap_clocks)),
-      planes_(planes_of(spec)),
-      way_(static_cast<std::size_t>(spec.latency())),
-      next_refresh_ps_(spec.refresh_interval_ps > 0 ? spec.refresh_interval_ps : INT64_MAX),
-      next_video_ps_(spec.video_interval_ps > 0 ? spec.video_interval_ps : INT64_MAX) {
+      frame_(spec),
+      thieves_(spec) {
+  for (int r = 0; r < spec.renderers.count; ++r) renderers_.emplace_back(spec);
   DENDRO_CHECK(sc_core::sc_get_time_resolution() == sc_core::sc_time(1, sc_core::SC_PS),
                "SystemC's resolution is not 1 ps");
   DENDRO_CHECK(tick_ps_ >= 2, "tick of {} ps", tick_ps_);
@@ -72,104 +59,35 @@ void ClockedEngine::on_clock() {
 }
 
 void ClockedEngine::evaluate(std::int64_t n) {
-  apply_writes(n);
-  const ClockedCause thief = steal(n);
-  const bool stolen = thief != ClockedCause::kBusy;
-  const ClockedCause cause = cause_of(thief);
-  idle_before_ = !fifo_.has_word(n) && behind_fifo_idle();
-  fifo_before_ = fifo_.size() - (last_landed_ == n ? 1 : 0);
+  const ClockedCause thief = thieves_.steal(n);
+  for (ClockedRenderer& renderer : renderers_) renderer.begin(n);
   if (vcd_ && vcd_->wants(n)) vcd_->before(n);
-
-  count(cause);
-  if (controller_.running()) stretches_.back().to = n + 1;
-  const bool ready = translator_.ready();
-  translator_.clock(n, fifo_);
-  if (!stolen) move_array(n, ready);
-  if (vcd_ && vcd_->wants(n)) vcd_->after(cause);
+  ClockedCause first = ClockedCause::kIdle;
+  for (ClockedRenderer& renderer : renderers_) {
+    const ClockedCause cause = renderer.clock(n, thief);
+    if (&renderer == &renderers_.front()) first = cause;
+    if (!renderer.error().empty()) fail(renderer.error());
+    if (renderer.copied() && spec_.frame.exists())
+      frame_.copy(renderer.command().tile_x, renderer.command().tile_y, renderer.array().planes());
+  }
+  book(n);
+  if (vcd_ && vcd_->wants(n)) vcd_->after(first);
   watch_limit();
   if (n % kProgressClocks == 0 && options_.progress) options_.progress(n);
 }
 
-/// Who takes the clock: kRefresh, kVideo, or kBusy for nobody.
-ClockedCause ClockedEngine::steal(std::int64_t n) {
-  const std::int64_t now_ps = n * tick_ps_;
-  while (next_refresh_ps_ <= now_ps || next_video_ps_ <= now_ps) {
-    const bool refresh = next_refresh_ps_ <= next_video_ps_;
-    steals_.push_back(refresh ? ClockedCause::kRefresh : ClockedCause::kVideo);
-    (refresh ? next_refresh_ps_ : next_video_ps_) +=
-        refresh ? spec_.refresh_interval_ps : spec_.video_interval_ps;
-  }
-  if (steals_.empty()) return ClockedCause::kBusy;
-  const ClockedCause thief = steals_.front();
-  steals_.pop_front();
-  return thief;
-}
-
-ClockedCause ClockedEngine::cause_of(ClockedCause thief) const {
-  if (controller_.running() || translator_.ready()) return thief;
-  if (fifo_.has_word(next_clock_ - 1) || !translator_.idle()) return ClockedCause::kTranslator;
-  return words_on_their_way_ > 0 ? ClockedCause::kDrain : ClockedCause::kIdle;
-}
-
-void ClockedEngine::count(ClockedCause cause) {
-  switch (cause) {
-    case ClockedCause::kBusy:
-      ++counters_.busy;
-      return;
-    case ClockedCause::kRefresh:
-      ++counters_.stall_refresh;
-      return;
-    case ClockedCause::kVideo:
-      ++counters_.stall_video;
-      return;
-    case ClockedCause::kTranslator:
-      ++counters_.stall_translator;
-      return;
-    case ClockedCause::kDrain:
-      ++counters_.stall_drain;
-      return;
-    case ClockedCause::kIdle:
-      ++counters_.idle;
-      return;
-  }
-}
-
-void ClockedEngine::move_array(std::int64_t n, bool ready) {
-  OnItsWay& slot = way_[way_at_];
-  const OnItsWay arrived = slot;
-  slot = {};
-  way_at_ = (way_at_ + 1) % way_.size();
-  if (!controller_.running() && ready) {
-    const igc::Header header = translator_.command().header;
-    if (!header.register_write && !controller_.has_end(header.entry)) {
-      fail(fmt::format("the micro-program at word {} of the control store has no end", header.entry));
-    } else if (!controller_.take(translator_.command())) {
-      fail(fmt::format("the micro-program at word {} sends nothing", header.entry));
-    }
-    translator_.taken();
-    ++fifo_counters_.commands;
-    book(header, n);
-  }
-  if (controller_.running()) {
-    const ClockedController::Sent sent = controller_.send();
-    const igc::Command& command = controller_.command();
-    if (sent.starts_stream) feed_.start(command.a, command.b, command.c);
-    slot = {true, sent.word};
-    ++words_on_their_way_;
-  } else {
-    controller_.pause();
-  }
-  lines_ = feed_.clock();
-  obeyed_ = arrived.word;
-  planes_.clock(lines_, arrived.word);
-  if (arrived.word_sent) --words_on_their_way_;
-}
-
-void ClockedEngine::book(const igc::Header& header, std::int64_t n) {
+/// The clock is of the command that the renderer with the lowest number of those at work has.
+void ClockedEngine::book(std::int64_t n) {
+  const igc::Header* header = nullptr;
+  for (const ClockedRenderer& renderer : renderers_)
+    if ((header = renderer.at_work()) != nullptr) break;
+  if (header == nullptr) return;
   std::string name = "run";
-  const auto mark = options_.marks.find(header.entry);
-  if (header.register_write) {
+  const auto mark = options_.marks.find(header->entry);
+  if (header->register_write) {
     name = "registers";
+  } else if (header->copy) {
+    name = "copy";
   } else if (mark != options_.marks.end() && mark->second.rfind("phase_", 0) == 0) {
     name = mark->second.substr(6, mark->second.find('.') - 6);
   }
@@ -201,25 +119,16 @@ void ClockedEngine::after_clock() {
   }
   const sc_core::sc_time to_next = ps(next_clock_ * tick_ps_ - now_in_ps());
   if (host_waits_for_idle_ && idle) idle_event_.notify(to_next);
-  if (host_waits_for_room_ && fifo_.size() < static_cast<std::size_t>(spec_.fifo_words))
+  if (host_waits_for_room_ != nullptr && host_waits_for_room_->has_room())
     room_event_.notify(to_next);
 }
 
-bool ClockedEngine::idle_now() const { return fifo_.empty() && behind_fifo_idle(); }
-
-bool ClockedEngine::behind_fifo_idle() const {
-  return translator_.idle() && !controller_.running() && words_on_their_way_ == 0;
+bool ClockedEngine::idle_now() const {
+  return std::all_of(renderers_.begin(), renderers_.end(), [](const ClockedRenderer& r) { return r.idle_now(); });
 }
 
 bool ClockedEngine::cannot_become_idle() const {
-  return translator_.lacks_words() && fifo_.empty() && !controller_.running() && words_on_their_way_ == 0;
-}
-
-void ClockedEngine::apply_writes(std::int64_t n) {
-  while (!writes_.empty() && writes_.front().clock < n) {
-    controller_.set_half(writes_.front().index, writes_.front().value);
-    writes_.pop_front();
-  }
+  return std::any_of(renderers_.begin(), renderers_.end(), [](const ClockedRenderer& r) { return r.cannot_become_idle(); });
 }
 
 }  // namespace dendro::pixel_planes

@@ -10,16 +10,12 @@
 #include <vector>
 
 #include "models/machines/machine.h"
-#include "models/machines/pixel_planes/clocked_front.h"
+#include "models/machines/pixel_planes/clocked_renderer.h"
 #include "models/machines/pixel_planes/clocked_vcd.h"
 #include "models/machines/pixel_planes/pixel_planes_spec.h"
 #include "models/machines/pixel_planes/pixel_planes_state.h"
-#include "models/parts/igc/clocked_planes.h"
 
 namespace dendro::pixel_planes {
-
-/// What a clock was used for; the order of the waveform.
-enum class ClockedCause : std::uint8_t { kBusy, kRefresh, kVideo, kTranslator, kDrain, kIdle };
 
 /// Level `clocked`: every clock is a SystemC event in which FIFO, translator, controller, tree and array move
 /// on by one. Written from the data sheets alone, as the referee of `cycle`. SystemC's time resolution must
@@ -63,13 +59,15 @@ class ClockedEngine : public sc_core::sc_module, public HostPort {
 
   std::int64_t clocks() const { return next_clock_; }
   std::int64_t host_busy_ps() const { return host_busy_ps_; }
-  const ControllerCounters& controller_counters() const { return counters_; }
-  const FifoCounters& fifo_counters() const { return fifo_counters_; }
+  const std::deque<ClockedRenderer>& renderers() const { return renderers_; }
+  const ControllerCounters& controller_counters() const { return renderers_.front().counters; }
+  const FifoCounters& fifo_counters() const { return renderers_.front().fifo_counters; }
   const std::vector<HostPhase>& host_phases() const { return phases_; }
   const std::vector<Stretch>& machine_phases() const { return stretches_; }
   bool time_read() const { return time_read_; }  ///< the host has read the status
   const VideoState& video() const { return video_; }
-  igc::ClockedPlanes& planes() { return planes_; }
+  igc::ClockedPlanes& planes() { return renderers_.front().array().planes(); }
+  std::uint32_t frame_word(std::uint32_t pixel, unsigned low) const { return frame_.peek(pixel, low); }
 
  private:
   friend class ClockedVcd;
@@ -77,19 +75,13 @@ class ClockedEngine : public sc_core::sc_module, public HostPort {
   // clocked.cpp
   void on_clock();
   void evaluate(std::int64_t n);
-  ClockedCause steal(std::int64_t n);
-  ClockedCause cause_of(ClockedCause thief) const;
-  void count(ClockedCause cause);
-  void move_array(std::int64_t n, bool ready);
-  void book(const igc::Header& header, std::int64_t n);
+  void book(std::int64_t n);
   void watch_limit();
   /// Ends the run with a UserError.
   void fail(const std::string& message);
   void after_clock();
   bool idle_now() const;  ///< at the beginning of clock next_clock_, if the host offers nothing more before
-  bool behind_fifo_idle() const;
   bool cannot_become_idle() const;
-  void apply_writes(std::int64_t n);
 
   // clocked_host.cpp
   void host_thread();
@@ -97,55 +89,32 @@ class ClockedEngine : public sc_core::sc_module, public HostPort {
   void wait_ps(std::int64_t ps);
   std::int64_t clock_now() const;
   bool idle_at(std::int64_t clock) const;
-  bool room_at(std::int64_t clock) const;
-  void offer(std::uint32_t word);
+  void offer(ClockedRenderer& renderer, std::uint32_t word);
   void store(std::uint32_t address, std::uint32_t value);
   std::uint32_t load(std::uint32_t address);
-
-  struct Write {
-    std::int64_t clock = 0;
-    std::uint32_t index = 0, value = 0;
-  };
-  struct OnItsWay {
-    bool word_sent = false;
-    igc::ArrayWord word;
-  };
 
   Spec spec_;
   MachineOptions options_;
   std::int64_t tick_ps_;
 
-  ClockedFifo fifo_;
-  ClockedTranslator translator_;
-  ClockedController controller_;
-  igc::TreeFeed feed_;
-  mutable igc::ClockedPlanes planes_;  // reading works out clocks that wait
-  std::vector<OnItsWay> way_;  ///< control words in the delay that equals the tree's
-  std::size_t way_at_ = 0;
-  unsigned words_on_their_way_ = 0;
-  std::deque<ClockedCause> steals_;  ///< due, not yet taken
-  std::int64_t next_refresh_ps_, next_video_ps_;
+  mutable std::deque<ClockedRenderer> renderers_;  // reading works out clocks that wait
+  Selection selection_;
+  ClockedFrame frame_;
+  ClockedThieves thieves_;
   VideoState video_;
 
   std::int64_t next_clock_ = 0;
-  bool idle_before_ = true;      ///< at the beginning of clock next_clock_ - 1
-  std::size_t fifo_before_ = 0;  ///< words there then
 
   std::function<void(HostPort&)> program_;
-  std::deque<Write> writes_;
-  std::int64_t last_landed_ = -1;
-  bool host_ended_ = false, host_waits_for_idle_ = false, host_waits_for_room_ = false;
+  bool host_ended_ = false, host_waits_for_idle_ = false;
+  const ClockedRenderer* host_waits_for_room_ = nullptr;
   std::int64_t host_end_ps_ = 0, host_busy_ps_ = 0;
   sc_core::sc_event idle_event_, room_event_;
   bool stopped_ = false, time_read_ = false;
   std::exception_ptr error_;
 
-  ControllerCounters counters_;
-  FifoCounters fifo_counters_;
   std::vector<HostPhase> phases_;
   std::vector<Stretch> stretches_;
-  igc::ArrayWord obeyed_;  ///< by the array in the last clock that was not stolen
-  igc::TreeLines lines_;
   std::unique_ptr<ClockedVcd> vcd_;
 };
 

@@ -53,14 +53,15 @@ void ClockedTranslator::receive(std::uint32_t word) {
 void ClockedTranslator::all_received() {
   const igc::Header& h = command_.header;
   std::size_t next = 1;
-  const bool expression = !h.register_write && h.expression;
+  if (h.copy) command_.tile_x = words_[1] & 0xFFFF, command_.tile_y = words_[1] >> 16;
+  const bool expression = !h.register_write && !h.copy && h.expression;
   if (expression) {
     command_.a = translate(words_[next++], h.fraction);
     command_.b = translate(words_[next++], h.fraction);
     command_.c = translate(words_[next++], h.fraction);
   }
-  if (!h.register_write && h.constant) command_.constant = words_[next++];
-  if (!h.register_write && h.long_constant) command_.constant |= std::uint64_t{words_[next++]} << 32;
+  if (!h.register_write && !h.copy && h.constant) command_.constant = words_[next++];
+  if (!h.register_write && !h.copy && h.long_constant) command_.constant |= std::uint64_t{words_[next++]} << 32;
   setup_left_ = expression ? setup_clocks_ : 0;
   state_ = setup_left_ > 0 ? State::kSetUp : State::kReady;
 }
@@ -80,7 +81,11 @@ bool ClockedController::take(const igc::Command& command) {
   first_word_ = true;
   if (command.header.register_write) {
     registers_[command.header.register_number] = static_cast<std::uint8_t>(command.header.value);
-    only_idle_word_ = true;
+    idle_words_ = 1;
+    return true;
+  }
+  if (command.header.copy) {
+    idle_words_ = copy_clocks_;
     return true;
   }
   address_ = command.header.entry;
@@ -158,8 +163,8 @@ bool ClockedController::step(const MicroWord& word) {
 
 ClockedController::Sent ClockedController::send() {
   Sent sent;
-  if (only_idle_word_) {
-    running_ = only_idle_word_ = false;
+  if (idle_words_ > 0) {
+    running_ = --idle_words_ > 0;
     last_had_tree_ = false;
     return sent;
   }

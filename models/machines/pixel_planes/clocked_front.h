@@ -68,11 +68,13 @@ class ClockedController {
   struct Sent {
     igc::ArrayWord word;
     bool starts_stream = false;
-    bool from_store = false;  ///< not the idle word of a register write
+    bool from_store = false;  ///< not an idle word of a register write or a copy
     unsigned address = 0;     ///< of the word in the control store
   };
 
-  explicit ClockedController(int gap_clocks) : gap_(static_cast<unsigned>(gap_clocks)) {}
+  /// `copy_clocks`: of a copy, all in all.
+  ClockedController(int gap_clocks, int copy_clocks)
+      : gap_(static_cast<unsigned>(gap_clocks)), copy_clocks_(static_cast<unsigned>(copy_clocks)) {}
 
   bool running() const { return running_; }
   /// When not running; send() of the same clock gives the command's first word. False: the program sends
@@ -92,6 +94,7 @@ class ClockedController {
     return static_cast<std::uint32_t>(store_[index / 2] >> (index % 2 * 32));
   }
   void set_half(std::uint32_t index, std::uint32_t value);
+  void set_register(unsigned number, unsigned value) { registers_.at(number) = static_cast<std::uint8_t>(value); }
 
   const igc::Command& command() const { return command_; }
   unsigned address() const { return address_; }
@@ -105,12 +108,12 @@ class ClockedController {
   bool step(const igc::MicroWord& word);
   igc::ArrayWord resolve(const igc::MicroWord& word) const;
 
-  unsigned gap_;
+  unsigned gap_, copy_clocks_;
   std::array<std::uint64_t, igc::kStoreWords> store_{};
   std::array<std::uint8_t, igc::kRegisters> registers_{};
   igc::Command command_;
   bool running_ = false;
-  bool only_idle_word_ = false;  ///< a register write
+  unsigned idle_words_ = 0;  ///< still to be sent of a register write or a copy
   bool first_word_ = false, last_had_tree_ = false;
   unsigned address_ = 0;
   bool in_loop_ = false;

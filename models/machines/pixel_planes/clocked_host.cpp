@@ -1,3 +1,5 @@
+#include <algorithm>
+
 #include "models/machines/pixel_planes/clocked.h"
 #include "models/machines/pixel_planes/pixel_planes_map.h"
 #include "sim/base/check.h"
@@ -40,59 +42,52 @@ std::int64_t ClockedEngine::clock_now() const { return now_in_ps() / tick_ps_; }
 bool ClockedEngine::idle_at(std::int64_t clock) const {
   if (clock == next_clock_) return idle_now();
   DENDRO_CHECK(clock == next_clock_ - 1, "clock {}, next is {}", clock, next_clock_);
-  return idle_before_ && fifo_.empty();
+  return std::all_of(renderers_.begin(), renderers_.end(), [](const ClockedRenderer& r) { return r.idle_before(); });
 }
 
-bool ClockedEngine::room_at(std::int64_t clock) const {
-  const std::size_t landed_now = last_landed_ == clock ? 1 : 0;
-  const std::size_t words = clock == next_clock_ ? fifo_.size() - landed_now : fifo_before_;
-  return words < static_cast<std::size_t>(spec_.fifo_words);
-}
-
-void ClockedEngine::offer(std::uint32_t word) {
-  ++fifo_counters_.words;
+void ClockedEngine::offer(ClockedRenderer& renderer, std::uint32_t word) {
+  ++renderer.fifo_counters.words;
   for (;;) {
     const std::int64_t n = clock_now();
-    if (room_at(n) && last_landed_ < n) {
-      fifo_.land(word, n);
-      last_landed_ = n;
+    const bool room = renderer.room_at(n, next_clock_);
+    if (room && renderer.can_land_in(n)) {
+      renderer.land(word, n);
       return;
     }
-    if (room_at(n) || n < next_clock_) {
-      if (!room_at(n)) ++fifo_counters_.full_clocks;
+    if (room || n < next_clock_) {
+      if (!room) ++renderer.fifo_counters.full_clocks;
       wait_ps((n + 1) * tick_ps_ - now_in_ps());
     } else {
-      host_waits_for_room_ = true;
+      host_waits_for_room_ = &renderer;
       wait(room_event_);
-      host_waits_for_room_ = false;
-      fifo_counters_.full_clocks += static_cast<std::uint64_t>(clock_now() - n);
+      host_waits_for_room_ = nullptr;
+      renderer.fifo_counters.full_clocks += static_cast<std::uint64_t>(clock_now() - n);
     }
   }
 }
 
 void ClockedEngine::store(std::uint32_t address, std::uint32_t value) {
-  if (address < kControlStoreEnd) {
-    writes_.push_back({clock_now(), address - kControlStore, value});
-  } else if (address == kFifo) {
-    offer(value);
-  } else if (address == kVideoBase) {
+  if (address == kVideoBase) {
     video_.base = value & (igc::kMostMemoryBits - 1);
   } else if (address == kVideoSize) {
     video_.width = static_cast<int>(value & 0xFFFF);
     video_.height = static_cast<int>(value >> 16);
+  } else if (address == kSelect) {
+    selection_.number = value;
+  }
+  for (std::size_t r = selection_.first(renderers_.size()); r < selection_.end(renderers_.size()); ++r) {
+    if (address < kControlStoreEnd) renderers_[r].store(clock_now(), address - kControlStore, value);
+    if (address == kFifo) offer(renderers_[r], value);
   }
 }
 
 std::uint32_t ClockedEngine::load(std::uint32_t address) {
-  if (address < kControlStoreEnd) {
-    for (auto write = writes_.rbegin(); write != writes_.rend(); ++write)
-      if (write->index == address - kControlStore) return write->value;
-    return controller_.half(address - kControlStore);
-  }
+  if (address < kControlStoreEnd) return renderers_[selection_.first(renderers_.size())].load(address - kControlStore);
   if (address == kStatus) {
     time_read_ = true;
     return idle_at(clock_now()) ? 0 : 1;
   }
+  if (address == kSelect) return selection_.number;
   if (address == kVideoBase) return video_.base;
   if (address == kVideoSize)
     return static_cast<std::uint32_t>(video_.width) | static_cast<std::uint32_t>(video_.height) << 16;
@@ -153,9 +148,11 @@ void ClockedEngine::phase(std::string_view name) {
 }
 
 std::uint32_t ClockedEngine::peek(std::uint32_t address, unsigned function) const {
-  const auto width = static_cast<std::uint32_t>(spec_.array.width);
-  if (address >= static_cast<std::uint32_t>(spec_.pixels())) return 0;
-  return planes_.memory_word(function, address % width, address / width);
+  if (address >= kFramePixels) return frame_.peek(address - kFramePixels, function);
+  const auto width = static_cast<std::uint32_t>(spec_.array.width), pixels = static_cast<std::uint32_t>(spec_.pixels());
+  if (address / pixels >= renderers_.size()) return 0;
+  const std::uint32_t pixel = address % pixels;
+  return renderers_[address / pixels].array().planes().memory_word(function, pixel % width, pixel / width);
 }
 
 }  // namespace dendro::pixel_planes

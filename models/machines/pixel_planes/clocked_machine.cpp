@@ -1,6 +1,9 @@
 #include <algorithm>
 
 #include "models/machines/pixel_planes/clocked.h"
+#include "models/machines/pixel_planes/frame_store.h"
+#include "models/machines/pixel_planes/pixel_planes_map.h"
+#include "models/machines/pixel_planes/units.h"
 
 namespace dendro::pixel_planes {
 namespace {
@@ -16,15 +19,19 @@ class ClockedMachine : public Machine {
   double clock_hz() const override { return 1e12 / static_cast<double>(spec_.tick_ps); }
   std::int64_t cycles() const override { return engine_->clocks(); }
   std::int64_t machine_cycles() const override {
-    return engine_->clocks() - static_cast<std::int64_t>(engine_->controller_counters().idle);
+    std::uint64_t idle = static_cast<std::uint64_t>(engine_->clocks());
+    for (const ClockedRenderer& renderer : engine_->renderers()) idle = std::min(idle, renderer.counters.idle);
+    return engine_->clocks() - static_cast<std::int64_t>(idle);
   }
-  std::uint64_t instructions() const override { return engine_->controller_counters().busy; }
+  std::uint64_t instructions() const override {
+    std::uint64_t words = 0;
+    for (const ClockedRenderer& renderer : engine_->renderers()) words += renderer.counters.busy;
+    return words;
+  }
   std::vector<Phase> phases() const override;
   std::vector<UnitStats> units() const override;
   std::vector<MarkEvent> marks() const override { return {}; }
-  std::vector<std::string> elaborated() const override {
-    return {"pixel_planes.controller", "pixel_planes.array", "pixel_planes.host"};
-  }
+  std::vector<std::string> elaborated() const override { return unit_names(engine_->renderers().size()); }
   bool time_dependent() const override { return engine_->time_read(); }
   Picture picture() const override;
   std::uint32_t peek(std::uint32_t address, unsigned function) const override;
@@ -65,26 +72,18 @@ std::vector<Phase> ClockedMachine::phases() const {
 
 std::vector<UnitStats> ClockedMachine::units() const {
   const auto total = static_cast<std::uint64_t>(engine_->clocks());
-  const ControllerCounters& c = engine_->controller_counters();
-  const FifoCounters& f = engine_->fifo_counters();
+  const std::vector<std::string> names = unit_names(engine_->renderers().size());
+  std::vector<UnitStats> units;
+  FifoCounters fifo;
+  for (const ClockedRenderer& renderer : engine_->renderers()) {
+    const std::size_t at = units.size();
+    add_units(names[at], names[at + 1], total, renderer.counters, renderer.fifo_counters.commands, units);
+    fifo.words += renderer.fifo_counters.words, fifo.full_clocks += renderer.fifo_counters.full_clocks;
+  }
   const std::uint64_t host_busy =
       std::min(total, static_cast<std::uint64_t>(engine_->host_busy_ps() / spec_.tick_ps));
-  return {{"pixel_planes.controller",
-           {{"cycles", total},
-            {"busy", c.busy},
-            {"stall_refresh", c.stall_refresh},
-            {"stall_video", c.stall_video},
-            {"stall_translator", c.stall_translator},
-            {"stall_drain", c.stall_drain},
-            {"idle", c.idle},
-            {"commands", f.commands}}},
-          {"pixel_planes.array", {{"cycles", total}, {"busy", c.busy}, {"idle", total - c.busy}}},
-          {"pixel_planes.host",
-           {{"cycles", total},
-            {"busy", host_busy},
-            {"idle", total - host_busy},
-            {"fifo_words", f.words},
-            {"fifo_full_clocks", f.full_clocks}}}};
+  units.push_back(host_unit(total, host_busy, fifo));
+  return units;
 }
 
 std::uint32_t ClockedMachine::peek(std::uint32_t address, unsigned function) const {
@@ -93,17 +92,11 @@ std::uint32_t ClockedMachine::peek(std::uint32_t address, unsigned function) con
 
 Picture ClockedMachine::picture() const {
   const VideoState& video = engine_->video();
-  Picture picture;
-  picture.width = video.width == 0 ? spec_.array.width : std::min(video.width, spec_.array.width);
-  picture.height = video.height == 0 ? spec_.array.height : std::min(video.height, spec_.array.height);
-  for (int y = 0; y < picture.height; ++y) {
-    for (int x = 0; x < picture.width; ++x) {
-      const std::uint32_t colour = peek(static_cast<std::uint32_t>(y * spec_.array.width + x), video.base);
-      for (unsigned channel = 0; channel < 3; ++channel)
-        picture.rgb.push_back(static_cast<std::uint8_t>(colour >> (8 * channel)));
-    }
-  }
-  return picture;
+  const bool frame = spec_.frame.exists();
+  const int width = frame ? spec_.frame.width : spec_.array.width;
+  return shown(video, width, frame ? spec_.frame.height : spec_.array.height, [&](int x, int y) {
+    return peek((frame ? kFramePixels : 0) + static_cast<std::uint32_t>(y * width + x), video.base);
+  });
 }
 
 }  // namespace

@@ -3,24 +3,12 @@
 #include "models/machines/pixel_planes/clocked.h"
 
 namespace dendro::pixel_planes {
-namespace {
-
-trace::VcdWindow window_of(const MachineOptions& options, std::int64_t tick_ps) {
-  trace::VcdWindow window;
-  window.from = options.vcd_from > INT64_MAX / tick_ps ? INT64_MAX : options.vcd_from * tick_ps;
-  window.to = options.vcd_to > INT64_MAX / tick_ps ? INT64_MAX : options.vcd_to * tick_ps;
-  window.units = options.vcd_units;
-  return window;
-}
-
-}  // namespace
-
 ClockedVcd::ClockedVcd(ClockedEngine& engine, const MachineOptions& options)
     : engine_(engine),
       from_(options.vcd_from),
       to_(options.vcd_to),
       tick_ps_(engine.tick_ps_),
-      writer_(options.vcd_file, window_of(options, engine.tick_ps_)) {
+      writer_(options.vcd_file, vcd_window(options, engine.tick_ps_)) {
   fifo_words_ = writer_.add("host", "fifo_words", 21);
   host_waits_room_ = writer_.add("host", "waits_for_room", 1);
   host_waits_idle_ = writer_.add("host", "waits_for_idle", 1);
@@ -49,26 +37,28 @@ ClockedVcd::ClockedVcd(ClockedEngine& engine, const MachineOptions& options)
 }
 
 void ClockedVcd::before(std::int64_t n) {
+  ClockedRenderer& renderer = engine_.renderers_.front();
   writer_.at(n * tick_ps_);
-  writer_.set(fifo_words_, engine_.fifo_before_);
-  writer_.set(host_waits_room_, engine_.host_waits_for_room_);
+  writer_.set(fifo_words_, renderer.fifo_before());
+  writer_.set(host_waits_room_, engine_.host_waits_for_room_ == &renderer);
   writer_.set(host_waits_idle_, engine_.host_waits_for_idle_);
-  writer_.set(idle_, engine_.idle_before_);
-  writer_.set(state_, engine_.translator_.state_number());
-  writer_.set(header_, igc::pack(engine_.translator_.command().header));
-  writer_.set(running_, engine_.controller_.running());
-  writer_.set(address_, engine_.controller_.address());
-  writer_.set(turn_, engine_.controller_.turn());
-  writer_.set(enabled_, engine_.planes_.enabled());
+  writer_.set(idle_, renderer.was_idle());
+  writer_.set(state_, renderer.translator().state_number());
+  writer_.set(header_, igc::pack(renderer.translator().command().header));
+  writer_.set(running_, renderer.controller().running());
+  writer_.set(address_, renderer.controller().address());
+  writer_.set(turn_, renderer.controller().turn());
+  writer_.set(enabled_, renderer.array().planes().enabled());
 }
 
 void ClockedVcd::after(ClockedCause cause) {
+  ClockedArraySide& array = engine_.renderers_.front().array();
   writer_.set(cause_, static_cast<std::uint64_t>(cause));
-  writer_.set(a_, engine_.lines_.a);
-  writer_.set(b_, engine_.lines_.b);
-  writer_.set(c_, engine_.lines_.c);
-  writer_.set(clear_, engine_.lines_.clear);
-  const igc::ArrayWord& w = engine_.obeyed_;
+  writer_.set(a_, array.lines().a);
+  writer_.set(b_, array.lines().b);
+  writer_.set(c_, array.lines().c);
+  writer_.set(clear_, array.lines().clear);
+  const igc::ArrayWord& w = array.obeyed();
   writer_.set(function_, static_cast<std::uint64_t>(w.function));
   writer_.set(x_, static_cast<std::uint64_t>(w.x));
   writer_.set(y_, static_cast<std::uint64_t>(w.y));

@@ -1,11 +1,14 @@
 #pragma once
 
+#include <deque>
+#include <memory>
 #include <string>
 #include <vector>
 
 #include "models/machines/machine.h"
-#include "models/machines/pixel_planes/device.h"
-#include "models/machines/pixel_planes/timing.h"
+#include "models/machines/pixel_planes/cycle_board.h"
+#include "models/machines/pixel_planes/recorder.h"
+#include "models/machines/pixel_planes/renderers.h"
 
 namespace dendro::pixel_planes {
 
@@ -19,28 +22,20 @@ class CycleMachine : public Machine, private HostPort {
   double clock_hz() const override { return 1e12 / static_cast<double>(spec_.tick_ps); }
   std::int64_t cycles() const override { return end_; }
   std::int64_t machine_cycles() const override;
-  std::uint64_t instructions() const override { return timing_.controller().busy; }
+  std::uint64_t instructions() const override;
   std::vector<Phase> phases() const override;
   std::vector<UnitStats> units() const override;
   std::vector<MarkEvent> marks() const override { return {}; }
-  std::vector<std::string> elaborated() const override {
-    return {"pixel_planes.controller", "pixel_planes.array", "pixel_planes.host"};
-  }
+  std::vector<std::string> elaborated() const override;
   bool time_dependent() const override { return time_read_; }
-  Picture picture() const override { return device_.picture(); }
-  std::uint32_t peek(std::uint32_t address, unsigned function) const override { return device_.peek(address, function); }
+  Picture picture() const override { return group_.picture(); }
+  std::uint32_t peek(std::uint32_t address, unsigned function) const override { return group_.peek(address, function); }
 
  private:
   /// A named stretch of the host's program, or of the controller's.
   struct Stretch {
     std::string name;
     std::int64_t from = 0, to = 0;  ///< clocks; a host's stretch ends where the next begins
-  };
-
-  /// Words of the control store that a command runs, [entry, entry + words), until clock `free`.
-  struct InUse {
-    unsigned entry = 0, words = 0;
-    std::int64_t free = 0;
   };
 
   std::uint32_t read(std::uint32_t address, unsigned function) override;
@@ -58,17 +53,20 @@ class CycleMachine : public Machine, private HostPort {
   std::int64_t clock_at(std::int64_t ps) const { return (ps + spec_.tick_ps - 1) / spec_.tick_ps; }
   void spend(std::int64_t ps) { now_ps_ += ps, busy_ps_ += ps; }
   std::string phase_of(const igc::Header& header) const;
-  void book(const std::string& name, const CommandTimes& times);
-  void check_not_in_use(std::uint32_t address);
+  void offer(std::size_t renderer, std::uint32_t word);
+  void book(std::size_t renderer, const std::string& name, const CommandTimes& times);
+  std::vector<Stretch> machine_stretches() const;
+  std::int64_t idle_from() const;
+  bool lacks_words() const;
 
   Spec spec_;
   MachineOptions options_;
-  mutable Device device_;  // reading brings waiting tiles up to date
-  Timing timing_;
+  mutable std::deque<CycleBoard> boards_;  // one a renderer; reading brings waiting tiles up to date
+  RendererGroup group_;
+  std::unique_ptr<Recorder> recorder_;
   std::int64_t now_ps_ = 0, busy_ps_ = 0;
-  unsigned command_words_ = 0;  ///< offered of the command that is not whole yet
-  std::vector<Stretch> host_, machine_;
-  std::deque<InUse> in_use_;  ///< by commands offered, in order; those that have ended are dropped now and then
+  std::vector<Stretch> host_;
+  std::vector<std::vector<Stretch>> machine_;  ///< by renderer
   std::int64_t end_ = 0;
   bool time_read_ = false;
 };

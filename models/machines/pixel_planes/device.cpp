@@ -2,6 +2,7 @@
 
 #include <cstring>
 
+#include "models/machines/pixel_planes/frame_store.h"
 #include "models/machines/pixel_planes/pixel_planes_map.h"
 
 namespace dendro::pixel_planes {
@@ -22,6 +23,11 @@ std::optional<igc::Command> CommandDecoder::add(std::uint32_t word) {
   igc::Command command;
   command.header = header;
   std::size_t at = 1;
+  if (header.copy) {
+    command.tile_x = words_[1] & 0xFFFF, command.tile_y = words_[1] >> 16;
+    words_.clear();
+    return command;
+  }
   if (header.expression && !header.register_write) {
     for (std::int64_t* to : {&command.a, &command.b, &command.c}) *to = coefficient(words_[at++], header.fraction);
   }
@@ -64,6 +70,7 @@ Device::Done Device::carry_out(const igc::Command& command) {
     controller_.registers[command.header.register_number] = static_cast<std::uint8_t>(command.header.value);
     return {command, 1, 0};
   }
+  if (command.header.copy) return {command, static_cast<std::uint64_t>(spec_.copy_words()), 0};
   auto found = programs_.find(command.header.entry);
   if (found == programs_.end())
     found = programs_.emplace(command.header.entry, MacroProgram(igc::program_at(controller_, command.header.entry))).first;
@@ -75,17 +82,16 @@ Device::Done Device::carry_out(const igc::Command& command) {
   return {command, words, static_cast<unsigned>(found->second.words().size())};
 }
 
+std::vector<igc::ArrayWord> Device::words_of(const igc::Command& command) const {
+  if (command.header.register_write) return {igc::ArrayWord{}};
+  if (command.header.copy) return std::vector<igc::ArrayWord>(static_cast<std::size_t>(spec_.copy_words()));
+  return igc::expand(programs_.at(command.header.entry).words(), command, controller_,
+                     static_cast<unsigned>(spec_.tree.gap_clocks));
+}
+
 Picture Device::picture() {
-  Picture picture;
-  picture.width = video_.width > 0 ? std::min(video_.width, spec_.array.width) : spec_.array.width;
-  picture.height = video_.height > 0 ? std::min(video_.height, spec_.array.height) : spec_.array.height;
-  picture.rgb.reserve(static_cast<std::size_t>(picture.width) * static_cast<std::size_t>(picture.height) * 3);
-  for (int y = 0; y < picture.height; ++y)
-    for (int x = 0; x < picture.width; ++x) {
-      const std::uint32_t colour = engine_.peek(y * spec_.array.width + x, video_.base);
-      for (int c = 0; c < 3; ++c) picture.rgb.push_back(static_cast<std::uint8_t>(colour >> (8 * c)));
-    }
-  return picture;
+  return shown(video_, spec_.array.width, spec_.array.height,
+               [&](int x, int y) { return engine_.peek(y * spec_.array.width + x, video_.base); });
 }
 
 }  // namespace dendro::pixel_planes

@@ -52,6 +52,14 @@ class Device {
     return pixel < static_cast<std::uint32_t>(spec_.pixels()) ? engine_.peek(static_cast<int>(pixel), low) : 0;
   }
   WordEngine& engine() { return engine_; }
+  const VideoState& video() const { return video_; }
+  const igc::ControllerState& controller() const { return controller_; }
+
+  /// What the array is sent for a command that has just been carried out.
+  std::vector<igc::ArrayWord> words_of(const igc::Command& command) const;
+
+  /// Registers as a command would write them, before the first command.
+  void set_register(unsigned number, unsigned value) { controller_.registers.at(number) = static_cast<std::uint8_t>(value); }
 
  private:
   Done carry_out(const igc::Command& command);

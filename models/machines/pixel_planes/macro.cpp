@@ -80,6 +80,7 @@ bool is_fills(const std::vector<MicroWord>& words) {
 }  // namespace
 
 MacroProgram::MacroProgram(std::vector<MicroWord> words) : words_(std::move(words)), fills_only_(is_fills(words_)) {
+  find_gate();
   for (const Pattern& pattern : patterns()) {
     Matcher matcher;
     if (!matcher.match(pattern, words_)) continue;
@@ -87,6 +88,19 @@ MacroProgram::MacroProgram(std::vector<MicroWord> words) : words_(std::move(word
     bound_ = matcher.bound();
     return;
   }
+}
+
+void MacroProgram::find_gate() {
+  if (words_.size() < 4) return;
+  MicroWord set, load, gate;
+  set.function = igc::Function::kSetEnable;
+  load.function = igc::Function::kLoad, load.x = igc::Operand::kPortA, load.read_a = true;
+  load.register_a = words_[1].register_a, load.offset_a = words_[1].offset_a;
+  gate.function = igc::Function::kAndCarry;
+  const bool sets_again = std::any_of(words_.begin() + 3, words_.end(),
+                                      [](const MicroWord& w) { return w.function == igc::Function::kSetEnable; });
+  if (words_[0] == set && words_[1] == load && words_[2] == gate && !sets_again)
+    gate_ = Gate{load.register_a, load.offset_a};
 }
 
 std::optional<Macro> MacroProgram::from_pattern(const igc::Command& command,
@@ -109,8 +123,8 @@ std::optional<Macro> MacroProgram::from_pattern(const igc::Command& command,
     if (!holds_expression(command)) return std::nullopt;
     macro.a = command.a, macro.b = command.b, macro.c = command.c;
     macro.fraction = command.header.fraction;
-    macro.stream_bits = macro.fraction + command.header.guard + (pattern.kind == MacroKind::kKill ? 0 : bits);
-    if (macro.stream_bits > kMostStreamBits) return std::nullopt;
+    macro.stream_bits = macro.fraction + command.header.guard + (pattern.kind == MacroKind::kKill || is_sign(pattern.kind) ? 0 : bits);
+    if (macro.stream_bits > kMostStreamBits || command.header.guard < 1) return std::nullopt;
   }
   return macro;
 }

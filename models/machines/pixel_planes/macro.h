@@ -23,7 +23,16 @@ enum class MacroKind : std::uint8_t {
   kMatchPaint,    ///< where bit 0 of field 1 is set and field 0 = T: field 2 := constant
   kPaint,         ///< where bit 0 of field 1 is set: field 2 := constant
   kRaiseIndex,    ///< kRaise, and where field 0 was below T: field 1 := constant
-  kPaintIndex     ///< where bit 0 of field 1 is set and field 0 = the constant's low bits: field 2 := those above
+  kPaintIndex,    ///< where bit 0 of field 1 is set and field 0 = the constant's low bits: field 2 := those above
+  kSignFirst,     ///< bit 0 of field 1 := the expression, of fraction + guard bits, is not negative
+  kSign           ///< bit 0 of field 1 := itself and that
+};
+
+constexpr bool is_sign(MacroKind kind) { return kind == MacroKind::kSignFirst || kind == MacroKind::kSign; }
+
+/// Where a program finds the flag outside which it changes nothing.
+struct Gate {
+  unsigned register_number = 0, offset = 0;
 };
 
 /// A field of the pixel as registers and counts of the controller say it.
@@ -56,7 +65,11 @@ class MacroProgram {
 
   const std::vector<igc::MicroWord>& words() const { return words_; }
 
+  /// Of a program that begins with enable = 1, carry = flag, enable = enable & carry, and never sets enable again.
+  const std::optional<Gate>& gate() const { return gate_; }
+
  private:
+  void find_gate();
   std::optional<Macro> from_pattern(const igc::Command& command, const igc::ControllerState& controller) const;
   std::optional<std::vector<Macro>> fills(const igc::Command& command, const igc::ControllerState& controller) const;
 
@@ -64,6 +77,7 @@ class MacroProgram {
   const Pattern* pattern_ = nullptr;
   std::array<int, 4> bound_{};  ///< registers by the pattern's roles, -1: none
   bool fills_only_ = false;
+  std::optional<Gate> gate_;
 };
 
 }  // namespace dendro::pixel_planes

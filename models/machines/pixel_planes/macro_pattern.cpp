@@ -177,6 +177,18 @@ Words paint_index() {
                constant_to(kField2, 24, 12)});
 }
 
+Words sign_first() {
+  W flag(Function::kHold, k1);
+  flag.write(kField1, Source::kSum, false);
+  return join({start(), skip(), W(Function::kLoad, kT).loop(LoopCount::kGuard), one(flag)});
+}
+
+Words sign() {
+  W flag(Function::kHold, kA);
+  flag.flag().write(kField1, Source::kXAndNotData, false);
+  return join({start(), skip(), W(Function::kHold, k0, k0, DataOp::kTree).loop(LoopCount::kGuard), one(flag)});
+}
+
 std::vector<Pattern> make_patterns() {
   const Words raise = two_streams(compare_raise(raising()), Source::kXOrData);
   const Words lower = two_streams(compare_lower(lowering()), Source::kXAndNotData);
@@ -196,6 +208,8 @@ std::vector<Pattern> make_patterns() {
       {MacroKind::kMatchPaint, {0, kFlag, 24}, true, match_paint()},
       {MacroKind::kPaint, {kNone, kFlag, 24}, false, join({flagged(), gate(), constant_to(kField2, 24)})},
       {MacroKind::kRaiseIndex, {0, 12}, true, join({raise, constant_to(kField1, 12)})},
+      {MacroKind::kSignFirst, {kNone, kFlag}, true, sign_first()},
+      {MacroKind::kSign, {kNone, kFlag}, true, sign()},
       {MacroKind::kPaintIndex, {12, kFlag, 24}, false, paint_index()},
   };
   for (Pattern& pattern : list) pattern.words.back().end = true;

@@ -2,9 +2,10 @@
 
 #include <algorithm>
 
+#include "models/machines/pixel_planes/boundaries.h"
 #include "models/machines/pixel_planes/clocked.h"
 #include "models/machines/pixel_planes/cycle.h"
-#include "models/machines/pixel_planes/device.h"
+#include "models/machines/pixel_planes/renderers.h"
 #include "sim/base/error.h"
 
 namespace dendro::pixel_planes {
@@ -13,42 +14,54 @@ namespace {
 /// Plain calls; counts the words that programs send.
 class FunctionPort : public HostPort {
  public:
-  explicit FunctionPort(Device& device) : device_(device) {}
+  explicit FunctionPort(const Spec& spec) : group_(spec, [this](std::size_t r) -> Device& { return devices_[r]; }) {
+    for (std::size_t r = 0; r < group_.count(); ++r) devices_.emplace_back(spec, true);
+  }
 
-  std::uint32_t read(std::uint32_t address, unsigned) override { return device_.read(address); }
+  std::uint32_t read(std::uint32_t address, unsigned) override { return group_.read(address); }
   void write(std::uint32_t address, std::uint32_t value, unsigned) override {
-    if (const auto done = device_.write(address, value)) words_ += done->words;
+    if (group_.write(address, value)) return;
+    const Selection& to = group_.selection();
+    for (std::size_t r = to.first(group_.count()); r < to.end(group_.count()); ++r)
+      if (const auto done = devices_[r].write(address, value)) {
+        words_ += done->words;
+        group_.done(r, done->command, ++commands_);
+      }
   }
   void dma_to(std::uint32_t address, const std::uint32_t* words, std::size_t count, unsigned function,
               std::uint32_t step) override {
     for (std::size_t i = 0; i < count; ++i) write(address + static_cast<std::uint32_t>(i) * step, words[i], function);
   }
   void dma_from(std::uint32_t address, std::uint32_t* words, std::size_t count, unsigned, std::uint32_t step) override {
-    for (std::size_t i = 0; i < count; ++i) words[i] = device_.read(address + static_cast<std::uint32_t>(i) * step);
+    for (std::size_t i = 0; i < count; ++i) words[i] = group_.read(address + static_cast<std::uint32_t>(i) * step);
   }
   void command(std::uint32_t) override {}
   void wait_interrupt() override {
-    if (device_.lacks_words()) throw Device::never_idle();
+    for (const Device& device : devices_)
+      if (device.lacks_words()) throw Device::never_idle();
   }
   void compute(const Work&) override {}
   void phase(std::string_view) override {}
-  std::uint32_t peek(std::uint32_t address, unsigned function) const override { return device_.peek(address, function); }
+  std::uint32_t peek(std::uint32_t address, unsigned function) const override { return group_.peek(address, function); }
   void program(std::string_view, std::uint32_t) override {}
 
   std::uint64_t words() const { return words_; }
+  Picture picture() const { return group_.picture(); }
 
  private:
-  Device& device_;
+  std::deque<Device> devices_;  // they change when something is read: waiting tiles are brought up to date
+  RendererGroup group_;
+  std::int64_t commands_ = 0;
   std::uint64_t words_ = 0;
 };
 
 class FunctionMachine : public Machine {
  public:
-  explicit FunctionMachine(const Spec& spec) : spec_(spec), device_(spec, true), port_(device_) {}
+  explicit FunctionMachine(const Spec& spec) : spec_(spec), port_(spec) {}
 
   void run(const std::function<void(HostPort&)>& host_program) override {
     host_program(port_);
-    if (device_.lacks_words()) throw Device::never_idle();
+    port_.wait_interrupt();
   }
   double clock_hz() const override { return 1e12 / static_cast<double>(spec_.tick_ps); }
   std::int64_t cycles() const override { return 0; }
@@ -59,12 +72,11 @@ class FunctionMachine : public Machine {
   std::vector<MarkEvent> marks() const override { return {}; }
   std::vector<std::string> elaborated() const override { return {"pixel_planes.array"}; }
   bool time_dependent() const override { return false; }
-  Picture picture() const override { return device_.picture(); }
-  std::uint32_t peek(std::uint32_t address, unsigned function) const override { return device_.peek(address, function); }
+  Picture picture() const override { return port_.picture(); }
+  std::uint32_t peek(std::uint32_t address, unsigned function) const override { return port_.peek(address, function); }
 
  private:
   Spec spec_;
-  mutable Device device_;  // reading brings waiting tiles up to date
   FunctionPort port_;
 };
 
@@ -83,6 +95,8 @@ std::unique_ptr<Machine> make(const config::ParameterSet& parameters, Level leve
   const Spec spec = resolve(parameters);
   if (options.cost)
     throw UserError("--cost", 0, "", "in a pixel array every clock is every pixel's: there is no cost by pixel");
+  if (options.recorder && spec.frame.exists())
+    throw UserError("--boundary", 0, "", "records are made of a machine that shows its one array, without a frame buffer");
   if (level == Level::kFunction) return std::make_unique<FunctionMachine>(spec);
   if (level == Level::kClocked) return make_clocked(spec, options);
   return std::make_unique<CycleMachine>(spec, options);
@@ -99,6 +113,10 @@ MachineType pixel_planes_type() {
   type.folder = "models/machines/pixel_planes";
   type.make = make;
   type.check = check;
+  type.boundaries = boundaries();
+  type.replay = [](const config::ParameterSet& parameters, Level level, trace::Reader& trace) {
+    return replay(resolve(parameters), level, trace);
+  };
   return type;
 }
 

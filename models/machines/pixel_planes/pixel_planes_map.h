@@ -11,5 +11,11 @@ constexpr std::uint32_t kFifo = 0x1000;       ///< write only: commands
 constexpr std::uint32_t kStatus = 0x1001;     ///< read: 1 while the machine is not idle
 constexpr std::uint32_t kVideoBase = 0x1002;  ///< first of the 24 colour bits
 constexpr std::uint32_t kVideoSize = 0x1003;  ///< width in bits 0-15, height in bits 16-31
+constexpr std::uint32_t kSelect = 0x1004;     ///< the renderer whose control store and FIFO are written, or kAllRenderers
+
+constexpr std::uint32_t kAllRenderers = 0xFFFF;
+
+/// For measuring: pixel y * frame width + x of the frame store, as it was copied. Pixels of renderer r begin at r times an array's.
+constexpr std::uint32_t kFramePixels = 1u << 31;
 
 }  // namespace dendro::pixel_planes

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string>
+#include <tuple>
 
 #include "models/parts/igc/igc_isa.h"
 
@@ -29,6 +31,17 @@ std::int64_t interval(config::ParameterReader& reader, const char* key, std::int
   return value;
 }
 
+/// A machine that draws pictures larger than its arrays has these.
+void read_renderers(config::ParameterReader& reader, Spec& spec) {
+  spec.renderers.count = static_cast<int>(reader.integer("renderers.count", 1, 64));
+  spec.renderers.copy_clocks = static_cast<int>(reader.integer("renderers.copy_clocks", 0, 1 << 24));
+  spec.frame.width = static_cast<int>(reader.integer("frame_buffer.width", 1, 4096));
+  spec.frame.height = static_cast<int>(reader.integer("frame_buffer.height", 1, 4096));
+  for (const auto& [key, side, tile] : {std::tuple("frame_buffer.width", spec.frame.width, spec.array.width),
+                                        {"frame_buffer.height", spec.frame.height, spec.array.height}})
+    if (side % tile != 0) reader.impossible(key, "must be whole tiles, " + std::to_string(tile) + " pixels each");
+}
+
 }  // namespace
 
 int Spec::levels_x() const { return log2_of(array.width); }
@@ -54,6 +67,7 @@ Spec resolve(const config::ParameterSet& parameters) {
   spec.host.instruction_ps = ps(1.0 / reader.real("host.instructions_m_s", 1e-3, 1e6), 1e6);
   spec.host.program_load_ps = ps(reader.real("host.program_load_ms", 0, 1e6), 1e9);
   spec.host.interrupt_ps = ps(reader.real("host.interrupt_us", 0, 1e9), 1e6);
+  if (parameters.find("renderers.count")) read_renderers(reader, spec);
   reader.finish();
   return spec;
 }

@@ -24,9 +24,19 @@ struct Spec {
     std::int64_t program_load_ps = 0;    ///< opening and reading a micro-program, without sending it
     std::int64_t interrupt_ps = 10000000;  ///< from the machine being idle to the host going on
   };
+  struct Renderers {
+    int count = 1;
+    int copy_clocks = 0;  ///< of a copy, behind the clocks in which the tree drains
+  };
+  struct Frame {
+    int width = 0, height = 0;  ///< pixels, whole tiles; 0: none, the arrays' own memory is shown
+    bool exists() const { return width > 0; }
+  };
   std::int64_t tick_ps = 100000;
   Array array;
   Tree tree;
+  Renderers renderers;
+  Frame frame;
   int setup_clocks = 4;  ///< of the translator, per expression
   int fifo_words = 512;
   std::int64_t refresh_interval_ps = 0;  ///< one clock is stolen so often; 0: never
@@ -36,6 +46,8 @@ struct Spec {
   int levels_x() const;  ///< of the tree: log2(width)
   int levels_y() const;
   int latency() const { return levels_x() + levels_y(); }
+  /// Clocks of a copy.
+  int copy_words() const { return latency() + renderers.copy_clocks; }
   int pixels() const { return array.width * array.height; }
   /// Streams that are closer than this spill into each other unless `masked`.
   int least_gap() const;

@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "models/machines/pixel_planes/pixel_planes_map.h"
 #include "models/machines/pixel_planes/pixel_planes_spec.h"
 
 namespace dendro::pixel_planes {
@@ -24,6 +25,14 @@ struct ArrayState {
 struct VideoState {
   unsigned base = 0;
   int width = 0, height = 0;  ///< 0: the whole array
+};
+
+/// The renderers that a word of the host goes to: the one with this number, or all when none has it.
+struct Selection {
+  std::uint32_t number = kAllRenderers;
+
+  std::size_t first(std::size_t count) const { return number < count ? number : 0; }
+  std::size_t end(std::size_t count) const { return number < count ? number + 1 : count; }
 };
 
 struct ControllerCounters {

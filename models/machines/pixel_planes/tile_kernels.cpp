@@ -129,6 +129,9 @@ HWY_ATTR void run_op(const TileOp& op, Depths& t) {
         store_where(hn::And(flagged(f1, at), hn::Eq(match, load(f0, at))), op.constant, f2, at);
       });
       break;
+    case MacroKind::kSignFirst:
+    case MacroKind::kSign:
+      break;  // flags are kept as bits
   }
 }
 

@@ -6,6 +6,18 @@
 
 namespace dendro::pixel_planes {
 
+namespace {
+
+/// An event that has to wait for its clock has it within so many: two sources, each with a period of at least 4 clocks.
+constexpr std::int64_t kMostWaiting = 16;
+
+}  // namespace
+
+std::int64_t first_event_ps(std::int64_t interval_ps, std::int64_t tick_ps, std::int64_t clock) {
+  const std::int64_t over_ps = std::max<std::int64_t>(0, (clock - 1) * tick_ps);  // due in `clock`: behind this
+  return (over_ps / interval_ps + 1) * interval_ps;
+}
+
 StolenClocks::StolenClocks(const Spec& spec)
     : tick_ps_(spec.tick_ps),
       refresh_ps_(spec.refresh_interval_ps),
@@ -65,6 +77,15 @@ std::pair<std::uint64_t, std::uint64_t> StolenClocks::count(std::int64_t from, s
   return counts;
 }
 
+void StolenClocks::skip(std::int64_t clock) {
+  const std::int64_t from = clock - kMostWaiting;
+  if (from <= filled_) return;
+  list_.clear();
+  if (refresh_ps_ > 0) next_refresh_ps_ = first_event_ps(refresh_ps_, tick_ps_, from);
+  if (video_ps_ > 0) next_video_ps_ = first_event_ps(video_ps_, tick_ps_, from);
+  filled_ = from;
+}
+
 void StolenClocks::forget(std::int64_t before) {
   // The last one stays: the next may have to stand behind it.
   while (list_.size() > 1 && list_[1].clock < before) list_.pop_front();
@@ -117,6 +138,7 @@ CommandTimes Timing::command(unsigned fifo_words, bool expression, std::uint64_t
   controller_.stall_translator += static_cast<std::uint64_t>(std::max<std::int64_t>(0, wanted - seen));
 
   CommandTimes times;
+  stolen_.skip(wanted);
   times.taken = stolen_.first_free(wanted);
   times.free = stolen_.advance(times.taken, words - 1) + 1;
   const auto [refresh, video] = stolen_.count(wanted, times.free);
@@ -127,6 +149,11 @@ CommandTimes Timing::command(unsigned fifo_words, bool expression, std::uint64_t
   idle_from_ = stolen_.advance(times.free - 1, static_cast<std::uint64_t>(spec_.latency())) + 1;
   stolen_.forget(times.free);
   return times;
+}
+
+std::size_t Timing::words_before_last() const {
+  // What has landed by then and leaves later; the last word itself leaves later, too.
+  return static_cast<std::size_t>(popped_.end() - std::lower_bound(popped_.begin(), popped_.end(), last_landed_)) - 1;
 }
 
 void Timing::finish(std::int64_t end) { book_gap(end); }

@@ -2,12 +2,16 @@
 
 #include <cstdint>
 #include <deque>
+#include <utility>
 #include <vector>
 
 #include "models/machines/pixel_planes/pixel_planes_spec.h"
 #include "models/machines/pixel_planes/pixel_planes_state.h"
 
 namespace dendro::pixel_planes {
+
+/// The first event of a period of `interval_ps` > 0, counted from one period on, that is due in clock `clock` or later.
+std::int64_t first_event_ps(std::int64_t interval_ps, std::int64_t tick_ps, std::int64_t clock);
 
 /// The clocks that refresh and video take from the array, in order. Questions must not go back in time.
 class StolenClocks {
@@ -26,6 +30,8 @@ class StolenClocks {
   /// Stolen clocks in [from, to), refresh and video.
   std::pair<std::uint64_t, std::uint64_t> count(std::int64_t from, std::int64_t to);
   /// Clocks before this are not asked for any more.
+  void skip(std::int64_t clock);
+  /// The same, for a clock that is not far ahead of those asked for.
   void forget(std::int64_t before);
 
  private:
@@ -54,6 +60,8 @@ class Timing {
   CommandTimes command(unsigned fifo_words, bool expression, std::uint64_t words);
   /// First clock at which the machine is idle, if nothing more is offered.
   std::int64_t idle_from() const { return idle_from_; }
+  /// Words in the FIFO at the beginning of the clock in which the last command's last word lands.
+  std::size_t words_before_last() const;
   /// The run ends at this clock; closes the counters.
   void finish(std::int64_t end);
 

@@ -30,6 +30,7 @@ WordEngine::WordEngine(const Spec& spec, bool lazy)
       tiles_x_(spec.array.width / kTileSide),
       tiles_y_(spec.array.height / kTileSide),
       bits_(spec),
+      flags_(spec),
       waiting_(static_cast<std::size_t>(tiles_x_ * tiles_y_), -1) {
   batches_.emplace_back();
 }
@@ -42,19 +43,49 @@ void WordEngine::execute(const MacroProgram& program, const igc::Command& comman
     for (const Macro& macro : *macros)
       for (unsigned k = 0; k < macro.field_count; ++k)
         known = known && macro.fields[k].low + macro.fields[k].bits <= bits_.memory.size();
+  if (known && is_sign(macros->front().kind)) {
+    known = false;
+    if (lazy_) {
+      to_bits();
+      fields_.clear();
+      counters_.pixel_operations += static_cast<std::uint64_t>(spec_.pixels());
+      if (flags_.apply(macros->front())) return;
+      counters_.pixel_operations -= static_cast<std::uint64_t>(spec_.pixels());
+    }
+  }
   if (!known) {
-    to_bits();
-    apply_words(spec_, command, igc::expand(program.words(), command, controller, static_cast<unsigned>(spec_.tree.gap_clocks)),
-                bits_);
-    fields_.clear();
-    ++counters_.bitwise_commands;
+    execute_bits(program, command, controller);
     return;
   }
+  flags_.forget_all(bits_);
   if (macros->front().kind == MacroKind::kFill) flush();  // fills begin a batch
   for (const Macro& macro : *macros) {
     DENDRO_CHECK(add(macro), "field {}", macro.fields[0].low);
     counters_.pixel_operations += static_cast<std::uint64_t>(spec_.pixels());
   }
+}
+
+void WordEngine::execute_bits(const MacroProgram& program, const igc::Command& command,
+                              const igc::ControllerState& controller) {
+  to_bits();
+  fields_.clear();
+  flags_.settle(bits_);
+  const auto words = igc::expand(program.words(), command, controller, static_cast<unsigned>(spec_.tree.gap_clocks));
+  const std::vector<std::uint32_t>* only = nullptr;
+  unsigned flag = igc::kMostMemoryBits;
+  if (lazy_ && program.gate()) {
+    flag = words[1].address_a;
+    only = flags_.live(flag, bits_);
+  }
+  apply_words(spec_, command, words, bits_, only);
+  for (const igc::ArrayWord& word : words) {
+    if (word.write_a && (only == nullptr || word.address_a != flag)) flags_.forget(word.address_a);
+    if (word.write_b && (only == nullptr || word.address_b != flag)) flags_.forget(word.address_b);
+  }
+  const auto pixels = static_cast<std::uint64_t>(spec_.pixels());
+  counters_.pixel_operations += pixels;
+  counters_.evaluated += only ? only->size() * 64 : pixels;
+  ++counters_.bitwise_commands;
 }
 
 /// The field's number. A field in a new place is taken from the bits; one that it cuts is given up.
@@ -168,15 +199,17 @@ bool WordEngine::touches_scratch_only(const Batch& batch, const Square& square) 
         break;
       case MacroKind::kRaise:
       case MacroKind::kRaiseScratch:
+      case MacroKind::kRaiseIndex:
       case MacroKind::kLower:
       case MacroKind::kLowerScratch: {
         if (!scratch(op.field[0]) || !scratch(op.field[1])) return false;
         const std::int64_t most = all_ones(macro.fields[0].bits);
         const Interval t = depth_of(macro, square);
         const std::int64_t low = std::clamp<std::int64_t>(t.low, 0, most), high = std::clamp<std::int64_t>(t.high, 0, most);
-        const bool raise = macro.kind == MacroKind::kRaise || macro.kind == MacroKind::kRaiseScratch;
+        const bool raise = macro.kind != MacroKind::kLower && macro.kind != MacroKind::kLowerScratch;
         *f0 = raise ? Interval{std::max(f0->low, low), std::max(f0->high, high)}
                     : Interval{std::min(f0->low, low), std::min(f0->high, high)};
+        if (op.field[1] >= 0) bounds[static_cast<std::size_t>(op.field[1])] = {0, all_ones(macro.fields[1].bits)};
         break;
       }
       case MacroKind::kKill: {
@@ -206,7 +239,9 @@ bool WordEngine::touches_scratch_only(const Batch& batch, const Square& square) 
       case MacroKind::kPaintIndex:
         if ((unflagged >> op.field[1] & 1) == 0) return false;
         continue;
-      default: return false;
+      case MacroKind::kSignFirst:
+      case MacroKind::kSign:
+        return false;  // a flag that did not fit the regions gates what comes behind
     }
     if (op.field[0] >= 0) unflagged &= ~(1u << op.field[0]);
     if (op.field[1] >= 0) unflagged &= ~(1u << op.field[1]);
@@ -272,6 +307,7 @@ std::size_t WordEngine::tile_of(int pixel, std::size_t& inside) const {
 
 std::uint32_t WordEngine::peek(int pixel, unsigned low) {
   flush();
+  flags_.settle(bits_);
   std::size_t inside = 0;
   const std::size_t tile = tile_of(pixel, inside);
   const Batch* waits = waiting_[tile] >= 0 ? &batches_[static_cast<std::size_t>(waiting_[tile])] : nullptr;
@@ -297,6 +333,7 @@ std::uint32_t WordEngine::peek(int pixel, unsigned low) {
 
 const ArrayState& WordEngine::bits() {
   to_bits();
+  flags_.settle(bits_);
   return bits_;
 }
 

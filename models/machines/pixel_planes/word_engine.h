@@ -3,10 +3,12 @@
 #include <cstdint>
 #include <vector>
 
+#include "models/machines/pixel_planes/flag_regions.h"
 #include "models/machines/pixel_planes/macro.h"
 #include "models/machines/pixel_planes/pixel_planes_spec.h"
 #include "models/machines/pixel_planes/pixel_planes_state.h"
 #include "models/machines/pixel_planes/tile_kernels.h"
+#include "sim/base/check.h"
 
 namespace dendro::pixel_planes {
 
@@ -17,7 +19,7 @@ struct WordCounters {
 };
 
 /// The pixel array for `function` and `cycle`: fields are numbers, commands are macro-operations on them. Micro-programs
-/// that are no macro-operation run clock by clock on the bits. With `lazy`, tiles in which a hull provably cannot be seen
+/// that are no macro-operation run clock by clock on the bits; with `lazy` only where a flag that gates them can be set. With `lazy`, tiles in which a hull provably cannot be seen
 /// are left for later: what stands for their scratch fields is the list of operations since these were last overwritten
 /// whole, and a tile is brought up to date when something of it is read.
 class WordEngine {
@@ -32,6 +34,12 @@ class WordEngine {
 
   /// All memory as bit planes. E, C and D are not kept.
   const ArrayState& bits();
+
+  /// The memory before the first command: zeros unless it is changed here.
+  ArrayState& before_first() {
+    DENDRO_CHECK(fields_.empty() && bits_current_, "{} fields", fields_.size());
+    return bits_;
+  }
 
   const WordCounters& counters() const { return counters_; }
 
@@ -61,6 +69,7 @@ class WordEngine {
     int tile_x = 0, tile_y = 0, tiles_x = 1, tiles_y = 1;
   };
 
+  void execute_bits(const MacroProgram& program, const igc::Command& command, const igc::ControllerState& controller);
   bool add(const Macro& macro);
   int field_of(const FieldPlace& place, bool flag);
   void flush();
@@ -80,6 +89,7 @@ class WordEngine {
   bool lazy_;
   int tiles_x_, tiles_y_;
   ArrayState bits_;
+  FlagRegions flags_;
   std::vector<Field> fields_;
   bool bits_current_ = true;      ///< bits_ holds what the fields hold
   std::vector<Batch> batches_;    ///< those that some tile still waits for, and the open one at the end

@@ -5,11 +5,10 @@
 #include "models/machines/rds3000/clocked_cards.h"
 #include "models/machines/rds3000/clocked_display.h"
 #include "models/machines/rds3000/devices.h"
-#include "models/machines/rds3000/replay_unit.h"
 #include "models/parts/bps32/bps32_isa.h"
 #include "models/parts/dr64/dr64_timing.h"
 #include "sim/trace/digest.h"
-#include "sim/trace/replayer.h"
+#include "sim/trace/replay_unit.h"
 
 namespace dendro::rds3000 {
 namespace {
@@ -124,7 +123,7 @@ class ClockedMemory : public MemoryTime {
   dr64::Counters counters_;
 };
 
-class MemoryReplay {
+class MemoryReplay : public trace::ReplayedUnit {
  public:
   MemoryReplay(const Spec& spec, Level level, Replayer& replayer)
       : spec_(spec), replayer_(replayer), core_(spec.memory), video_(video::power_on(spec.video.mode)) {
@@ -234,7 +233,7 @@ class MemoryReplay {
 }  // namespace
 
 trace::ReplayResult replay_memory(const Spec& spec, Level level, trace::Reader& trace) {
-  return replay_unit<MemoryReplay>(spec, level, trace);
+  return trace::replay_unit<MemoryReplay>(spec, spec.processor.tick_ps, level, trace);
 }
 
 }  // namespace dendro::rds3000

@@ -6,10 +6,9 @@
 #include "models/machines/rds3000/boundaries.h"
 #include "models/machines/rds3000/devices.h"
 #include "models/machines/rds3000/recorder.h"
-#include "models/machines/rds3000/replay_unit.h"
 #include "models/parts/bps32/bps32.h"
 #include "sim/trace/digest.h"
-#include "sim/trace/replayer.h"
+#include "sim/trace/replay_unit.h"
 
 namespace dendro::rds3000 {
 namespace {
@@ -24,7 +23,7 @@ std::string access_name(bool write, std::uint32_t address, unsigned function) {
   return fmt::format("{} of 0x{:x} with function {}", write ? "write" : "read", address, function);
 }
 
-class ProcessorReplay {
+class ProcessorReplay : public trace::ReplayedUnit {
  public:
   ProcessorReplay(const Spec& spec, Level level, Replayer& replayer)
       : spec_(spec), replayer_(replayer), initial_(bps32::power_on(spec.processor)) {
@@ -181,7 +180,7 @@ class ProcessorReplay {
 }  // namespace
 
 trace::ReplayResult replay_processor(const Spec& spec, Level level, trace::Reader& trace) {
-  return replay_unit<ProcessorReplay>(spec, level, trace);
+  return trace::replay_unit<ProcessorReplay>(spec, spec.processor.tick_ps, level, trace);
 }
 
 }  // namespace dendro::rds3000

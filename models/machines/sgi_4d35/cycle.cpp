@@ -1,14 +1,14 @@
 #include "models/machines/sgi_4d35/cycle.h"
 
+#include "models/machines/sgi_4d35/board.h"
 #include "models/machines/sgi_4d35/marks.h"
 #include "models/machines/sgi_4d35/pipeline.h"
-#include "models/machines/sgi_4d35/program_port.h"
 #include "models/parts/r3000/r3000.h"
 
 namespace dendro::sgi_4d35 {
 namespace {
 
-using TimedCore = r3000::Core<ProgramPort, Pipeline>;
+using TimedCore = r3000::Core<Board, Pipeline>;
 
 /// Keeps what RunOptions and MachineOptions ask for of every word.
 class Log : public Pipeline::Listener {
@@ -32,7 +32,7 @@ class Log : public Pipeline::Listener {
 ProgramResult run_cycle(const Spec& spec, const ProgramImage& image, service_block::Services& services,
                         std::uint64_t limit, const RunOptions& options) {
   MarkedServices marked(services);
-  ProgramPort port(spec, image, marked);
+  Board port(spec.main_bytes, image, marked);
   TimedCore core(spec.processor, port, spec);
   start(core.state(), image);
   Log log(options);
@@ -46,10 +46,13 @@ ProgramResult run_cycle(const Spec& spec, const ProgramImage& image, service_blo
       marks.push_back(*mark);
     }
   }
-  core.settle();
   const r3000::State& state = core.state();
   ProgramResult result = result_of(state, port, spec);
-  const Counters counters = core.time().counters(state.instructions, core.time().bias);
+  Counters counters;
+  if (limit != 0) {  // else no clock passes
+    core.settle();
+    counters = core.time().counters(state.instructions, core.time().bias);
+  }
   result.cycles = static_cast<std::int64_t>(counters.cycles);
   result.marks = marks;
   result.units = units_of(counters, r3000::counters_of(state));

@@ -6,11 +6,13 @@
 
 namespace dendro::sgi_4d35 {
 
-/// What a run at a level with time leaves besides its result.
+/// What a run at a level with time does besides counting.
 struct RunOptions {
-  std::vector<Retired>* retired = nullptr;   ///< every word that left MEM, killed ones among them
-  r3000::State* final_state = nullptr;       ///< with the load under way finished
-  MachineOptions machine;
+  /// Gets an entry for every word that completes, and for every one that faults or is interrupted.
+  std::vector<Retired>* retired = nullptr;
+  /// Gets the state behind the last word, a load under way finished.
+  r3000::State* final_state = nullptr;
+  MachineOptions machine;  ///< of these: waveform, pipeline log, progress
 };
 
 }  // namespace dendro::sgi_4d35

@@ -1,5 +1,6 @@
 #include "models/machines/sgi_4d35/sgi_4d35.h"
 
+#include "models/machines/sgi_4d35/clocked.h"
 #include "models/machines/sgi_4d35/cycle.h"
 #include "models/machines/sgi_4d35/function.h"
 #include "sim/base/error.h"
@@ -104,17 +105,21 @@ MachineType sgi_4d35_type() {
   type.name = "sgi-4d35";
   type.summary = "SGI 4D/35: R3000A and R3010A at 36 MHz, software rendering (MO95); programs by `exec`";
   type.presets = {"4d35"};
-  type.levels = {Level::kFunction, Level::kCycle};
+  type.levels = {Level::kFunction, Level::kCycle, Level::kClocked};
   type.folder = "models/machines/sgi_4d35";
   type.make = [](const config::ParameterSet&, Level, const MachineOptions&) -> std::unique_ptr<Machine> {
     throw UserError("", 0, "sgi-4d35",
                     "runs programs only (dendro exec sgi-4d35 PROGRAM.elf); this command cannot drive it");
   };
+  type.check = [](const config::ParameterSet& parameters, Level) { resolve(parameters); };
   type.exec = [](const config::ParameterSet& parameters, Level level, const ProgramImage& image,
                  service_block::Services& services, std::uint64_t limit, const MachineOptions& options) {
     const Spec spec = resolve(parameters);
     if (level == Level::kFunction) return run_function(spec, image, services, limit);
-    return run_cycle(spec, image, services, limit, {nullptr, nullptr, options});
+    RunOptions run;
+    run.machine = options;
+    return level == Level::kCycle ? run_cycle(spec, image, services, limit, run)
+                                  : run_clocked(spec, image, services, limit, run);
   };
   return type;
 }

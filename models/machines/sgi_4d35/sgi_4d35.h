@@ -44,7 +44,7 @@ struct Retired {
 /// Checks the parameters. Throws UserError.
 Spec resolve(const config::ParameterSet& parameters);
 
-/// The SGI 4D/35 [MO95 8] as an entry of the list of machines. So far at `function`, for programs.
+/// The SGI 4D/35 [MO95 8] as an entry of the list of machines. For programs, at `function` and `clocked`.
 MachineType sgi_4d35_type();
 
 }  // namespace dendro::sgi_4d35

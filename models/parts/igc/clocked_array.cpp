@@ -24,6 +24,26 @@ void ClockedArray::clock(const ArrayWord& word, const std::uint64_t* leaves) {
   if (!nothing) clock_pixels(planes, word);
 }
 
+template <class Array>
+auto& ClockedArray::plane_of(Array& array, PixelPlane which, unsigned bit) {
+  switch (which) {
+    case PixelPlane::kEnable: return array.enable_;
+    case PixelPlane::kCarry: return array.carry_;
+    case PixelPlane::kData: return array.data_;
+    default: return array.memory_.at(bit);
+  }
+}
+
+bool ClockedArray::value(PixelPlane which, unsigned bit, std::size_t leaf) const {
+  return get(plane_of(*this, which, bit), leaf);
+}
+
+void ClockedArray::set(PixelPlane which, unsigned bit, std::size_t leaf, bool value) {
+  const std::uint64_t mask = std::uint64_t{1} << leaf % 64;
+  std::uint64_t& word = plane_of(*this, which, bit)[leaf / 64];
+  word = value ? word | mask : word & ~mask;
+}
+
 std::uint64_t ClockedArray::enabled() const {
   std::uint64_t count = 0;
   for (const std::uint64_t e : enable_) count += static_cast<std::uint64_t>(__builtin_popcountll(e));

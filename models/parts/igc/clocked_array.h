@@ -8,6 +8,9 @@
 
 namespace dendro::igc {
 
+/// A register of the pixels, or a bit of their memory.
+enum class PixelPlane : std::uint8_t { kMemory, kEnable, kCarry, kData };
+
 /// The pixels behind a tree: E, C, D and memory of each, in the order of the tree's leaves. One broadcast
 /// word a clock.
 class ClockedArray {
@@ -23,11 +26,16 @@ class ClockedArray {
   bool enable(std::size_t leaf) const { return get(enable_, leaf); }
   bool carry(std::size_t leaf) const { return get(carry_, leaf); }
   bool data(std::size_t leaf) const { return get(data_, leaf); }
+  /// `bit`: of the memory.
+  bool value(PixelPlane which, unsigned bit, std::size_t leaf) const;
+  void set(PixelPlane which, unsigned bit, std::size_t leaf, bool value);
   /// Pixels whose E is set.
   std::uint64_t enabled() const;
 
  private:
   static bool get(const BitPlane& plane, std::size_t leaf) { return plane[leaf / 64] >> leaf % 64 & 1; }
+  template <class Array>
+  static auto& plane_of(Array& array, PixelPlane which, unsigned bit);
   std::uint64_t* plane(bool used, unsigned address);
 
   unsigned ports_;

@@ -50,7 +50,7 @@ void ClockedPlanes::catch_up() {
   gathered_ = 0;
 }
 
-const ClockedArray& ClockedPlanes::chip_of(unsigned x, unsigned y, std::size_t* leaf) {
+ClockedArray& ClockedPlanes::chip_of(unsigned x, unsigned y, std::size_t* leaf) {
   if (gathered_ > 0) catch_up();
   *leaf = leaf_in_row_[x] + (std::size_t{y & ((1u << chip_levels_) - 1)} << spec_.levels_x);
   return chip_[y >> chip_levels_].pixels;
@@ -79,6 +79,24 @@ bool ClockedPlanes::carry(unsigned x, unsigned y) {
 bool ClockedPlanes::data(unsigned x, unsigned y) {
   std::size_t leaf = 0;
   return chip_of(x, y, &leaf).data(leaf);
+}
+
+std::vector<std::uint64_t> ClockedPlanes::plane(PixelPlane which, unsigned bit) {
+  const std::size_t pixels = std::size_t{1} << (spec_.levels_x + spec_.levels_y);
+  std::vector<std::uint64_t> plane(pixels / 64);
+  for (std::size_t n = 0, leaf = 0; n < pixels; ++n) {
+    const auto x = static_cast<unsigned>(n % leaf_in_row_.size()), y = static_cast<unsigned>(n / leaf_in_row_.size());
+    const ClockedArray& pixels_of_chip = chip_of(x, y, &leaf);
+    plane[n / 64] |= static_cast<std::uint64_t>(pixels_of_chip.value(which, bit, leaf)) << n % 64;
+  }
+  return plane;
+}
+
+void ClockedPlanes::set_plane(PixelPlane which, unsigned bit, const std::vector<std::uint64_t>& plane) {
+  for (std::size_t n = 0, leaf = 0; n < plane.size() * 64; ++n) {
+    const auto x = static_cast<unsigned>(n % leaf_in_row_.size()), y = static_cast<unsigned>(n / leaf_in_row_.size());
+    chip_of(x, y, &leaf).set(which, bit, leaf, plane[n / 64] >> n % 64 & 1);
+  }
 }
 
 std::uint64_t ClockedPlanes::enabled() {

@@ -34,6 +34,9 @@ class ClockedPlanes {
   bool carry(unsigned x, unsigned y);
   bool data(unsigned x, unsigned y);
   std::uint64_t enabled();  ///< pixels whose E is set
+  /// A plane of all pixels: pixel y * width + x is bit n % 64 of word n / 64. `bit`: of the memory.
+  std::vector<std::uint64_t> plane(PixelPlane which, unsigned bit);
+  void set_plane(PixelPlane which, unsigned bit, const std::vector<std::uint64_t>& plane);
 
  private:
   struct Chip {
@@ -46,7 +49,7 @@ class ClockedPlanes {
   };
   void catch_up();
   /// Up to date, with the place of the pixel among its leaves.
-  const ClockedArray& chip_of(unsigned x, unsigned y, std::size_t* leaf);
+  ClockedArray& chip_of(unsigned x, unsigned y, std::size_t* leaf);
 
   PlanesSpec spec_;
   unsigned chip_levels_;

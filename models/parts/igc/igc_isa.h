@@ -142,27 +142,29 @@ struct ArrayWord {
 
 /// The first word of a command. Bits 0-9 entry, 10-15 fraction, 16-21 guard, 22 expression, 23 constant, 24 second
 /// word of the constant, 31 register write. Behind it: the expression's A, B, C in single precision, then the constant,
-/// its low word first. With bit 31: bits 0-7 value, 8-11 register; nothing behind it.
+/// its low word first. With bit 31: bits 0-7 value, 8-11 register; nothing behind it. With bit 30, and not 31: a copy; behind it the
+/// tile, its column in bits 0-15, its row in bits 16-31.
 struct Header {
-  bool register_write = false;
+  bool register_write = false, copy = false;
   unsigned entry = 0, fraction = 0, guard = 0;
   bool expression = false, constant = false, long_constant = false;
   unsigned register_number = 0, value = 0;
 
   unsigned words() const {
-    return register_write ? 1 : 1 + (expression ? 3 : 0) + (constant ? 1 : 0) + (long_constant ? 1 : 0);
+    return register_write ? 1 : copy ? 2 : 1 + (expression ? 3 : 0) + (constant ? 1 : 0) + (long_constant ? 1 : 0);
   }
 };
 
 constexpr std::uint32_t pack(const Header& h) {
   if (h.register_write) return 1u << 31 | (h.register_number & 15) << 8 | (h.value & 255);
+  if (h.copy) return 1u << 30;
   return (h.entry & 1023) | (h.fraction & 63) << 10 | (h.guard & 63) << 16 | (h.expression ? 1u << 22 : 0) |
          (h.constant ? 1u << 23 : 0) | (h.long_constant ? 1u << 24 : 0);
 }
 
 constexpr Header unpack_header(std::uint32_t word) {
   Header h;
-  h.register_write = word >> 31;
+  h.register_write = word >> 31, h.copy = word >> 30 == 1;
   h.entry = word & 1023, h.fraction = word >> 10 & 63, h.guard = word >> 16 & 63;
   h.expression = word >> 22 & 1, h.constant = word >> 23 & 1, h.long_constant = word >> 24 & 1;
   h.register_number = word >> 8 & 15, h.value = word & 255;
@@ -173,6 +175,7 @@ constexpr Header unpack_header(std::uint32_t word) {
 struct Command {
   Header header;
   std::int64_t a = 0, b = 0, c = 0;  ///< the expression's streams: two's complement, units of 2^-fraction
+  unsigned tile_x = 0, tile_y = 0;   ///< of a copy
   std::uint64_t constant = 0;        ///< its low word is the one of `constant`, its high word that of `long_constant`
 };
 

@@ -134,6 +134,8 @@ class Core {
   Fault fault_;
   bool leave_ = false;   ///< run_plain() ends after this word: interrupts or the port want to be looked at
   bool touched_ = false;  ///< a device, or where there is none
+  bool merge_ = false;   ///< lwl or lwr merges into the load before it, whose value is `merge_value_`
+  std::uint32_t merge_value_ = 0;
   bool refetch_ = true;  ///< the page of the program counter must be found anew
   Maps maps_[2];
   std::map<std::uint32_t, std::unique_ptr<CodePage>> code_;  ///< by physical page

@@ -174,7 +174,7 @@ bool Core<Port, Timing>::load_part(const Decoded& d, bool left, std::uint32_t& v
     if (fault_.has_address) fault_.address = address;
     return false;
   }
-  const std::uint32_t old = s_.r[d.rt];
+  const std::uint32_t old = merge_ ? merge_value_ : s_.r[d.rt];
   if (left)
     value = word << 8 * byte | (byte == 0 ? 0 : old & (0xFFFFFFFFu >> (32 - 8 * byte)));
   else

@@ -37,7 +37,7 @@ std::uint64_t Core<Port, Timing>::run_to_service(std::uint64_t budget) {
 }
 
 /// One word in the slot of a load that it may read: it sees the register's old value, and what it writes
-/// there wins.
+/// there wins. If it is itself a load whose result waits, the word behind it sees the first one's.
 template <class Port, class Timing>
 void Core<Port, Timing>::run_after_load() {
   const unsigned reg = s_.pending_reg;
@@ -46,11 +46,12 @@ void Core<Port, Timing>::run_after_load() {
   const CodePage* page = fetch_page(s_.pc);
   const Decoded d = page ? page->words[s_.pc >> 2 & (kPageWords - 1)] : Decoded();
   refetch_ = true;
-  const bool merges = (d.op == Op::kLwl || d.op == Op::kLwr) && d.rt == reg;
-  if (merges) s_.r[reg] = value;
+  merge_ = (d.op == Op::kLwl || d.op == Op::kLwr) && d.rt == reg;
+  merge_value_ = value;
   const std::uint64_t exceptions = s_.exceptions;
   run_paced(1);
-  if (!merges && (s_.exceptions != exceptions || destination_of(d) != reg)) s_.r[reg] = value;
+  merge_ = false;
+  if (s_.exceptions != exceptions || destination_of(d) != reg || s_.pending_reg == reg) s_.r[reg] = value;
 }
 
 template <class Port, class Timing>

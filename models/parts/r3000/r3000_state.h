@@ -59,6 +59,8 @@ enum class Access { kFetch, kLoad, kStore };
 
 /// The physical address of a virtual one, or false and what is wrong. Does not look at alignment.
 bool translate(State& s, std::uint32_t address, Access access, std::uint32_t& physical, Fault& fault);
+/// True for an address that goes past the caches: kseg1, or by its TLB entry. It must translate.
+bool uncached(const State& s, std::uint32_t address);
 
 /// True for kseg1 and for a page whose TLB entry has N set.
 bool uncached(const State& s, std::uint32_t address);

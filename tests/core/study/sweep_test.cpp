@@ -129,6 +129,40 @@ TEST_F(SweepTest, LevelsStandBesideEachOther) {
   EXPECT_EQ(100 + 36, output_of(outcome.rows[3], "cycles"));
 }
 
+TEST_F(SweepTest, MachinesStandBesideEachOther) {
+  write("slow.toml", "include = [\"fake:plain\"]\n[delay]\na_ticks = { value = 20, source = \"by decree\" }\n");
+  const std::string machines = "[[axis]]\nkey = \"machine\"\nvalues = [\"fake:plain\", \"slow.toml\"]\n";
+  const std::string text = kHead + machines + kAxisB;
+  const SweepOutcome outcome = run(text);
+  ASSERT_EQ(6u, outcome.rows.size());
+  EXPECT_EQ(2 * (10 + 5 + 5), output_of(outcome.rows[1], "phase.scan.cycles"));
+  EXPECT_EQ(2 * (20 + 5 + 5), output_of(outcome.rows[4], "phase.scan.cycles"));
+  EXPECT_NE(std::string::npos, sweep_csv(study(text), outcome.rows).find("slow.toml,5,"));
+  const auto error = [&](const std::string& wrong) { return error_of([&] { run(wrong); }); };
+  EXPECT_EQ(0u, error(std::string(kHead) + "[[axis]]\nkey = \"machine\"\nvalues = [\"faek\"]\n").find("s.toml:3: machine: "));
+  EXPECT_EQ(0u, error(std::string(kHead) + "[[axis]]\nkey = \"machine\"\nvalues = [1]\n").find("s.toml:3: machine: "));
+  EXPECT_EQ("s.toml:3: machine: an axis varies the machine", error(std::string(kHead) + "machine = \"fake\"\n" + machines));
+}
+
+TEST_F(SweepTest, AnOutputMayBeAQuotient) {
+  const std::string text = "scene = \"toy.toml\"\noutputs = [\"cycles per phase.scan.cycles\"]\n";
+  const SweepOutcome outcome = run(text + kAxisB);
+  EXPECT_EQ(136.0 / 36.0, output_of(outcome.rows[0], "cycles per phase.scan.cycles"));
+  EXPECT_EQ("s.toml:2: outputs: runs have no figure `cycels`; did you mean `cycles`?",
+            error_of([&] { run("scene = \"toy.toml\"\noutputs = [\"phase.scan.cycles per cycels\"]\n" + std::string(kAxisB)); }));
+}
+
+TEST_F(SweepTest, LabelsAndALogarithmChangeThePictureAlone) {
+  const std::string plain = std::string(kHead) + kAxisB, wrong = std::string(kHead) + "output_labels = [\"a\"]\n" + kAxisB;
+  const SweepOutcome outcome = run(plain);
+  const auto picture = [&](const std::string& head) {
+    return sweep_picture(study(head + kAxisB), outcome.rows, "cycles").rgb;
+  };
+  EXPECT_NE(picture(kHead), picture(std::string(kHead) + "output_labels = [\"ticks\", \"ticks of the scan\"]\n"));
+  EXPECT_NE(picture(kHead), picture(std::string(kHead) + "output_scale = \"log\"\n"));
+  EXPECT_EQ("s.toml:3: output_labels: 1 labels for 2 outputs", error_of([&] { study(wrong); }));
+}
+
 TEST_F(SweepTest, TheTableHasEveryParameterOfEveryRun) {
   const std::string text = std::string(kHead) + "seed = 77\n" + kAxisB;
   const SweepOutcome outcome = run(text);

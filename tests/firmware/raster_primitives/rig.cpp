@@ -2,38 +2,14 @@
 
 #include <gtest/gtest.h>
 
-#include <fstream>
-#include <sstream>
-
-#include "firmware/tools/igc_assembler.h"
 #include "models/parts/igc/igc.h"
 
 namespace dendro::raster_primitives {
 
-pixel_planes::Spec small_spec(int side) {
-  pixel_planes::Spec spec;
-  spec.array.width = spec.array.height = side;
-  return spec;
-}
-
 lib::IgcPrograms assemble(const std::vector<std::string>& names, const Layout& layout) {
-  tools::IgcOptions options;
-  options.memory_bits = 72;
-  options.registers = register_values(layout);
-  lib::IgcPrograms all;
-  for (const std::string& name : names) {
-    const std::string path = std::string(IGC_SOURCES) + "/" + name;
-    std::ifstream in(path);
-    std::stringstream text;
-    text << in.rdbuf();
-    const tools::IgcImage image = tools::assemble_igc(text.str(), name, options);
-    lib::IgcPrograms programs;
-    programs.words = image.words, programs.registers = image.registers;
-    for (const auto& [program, entry] : image.programs)
-      programs.entries[program] = {entry.entry, entry.phase, entry.uses_tree};
-    all.append(programs);
-  }
-  return all;
+  std::vector<std::string> paths;
+  for (const std::string& name : names) paths.push_back(std::string(IGC_SOURCES) + "/" + name);
+  return test::assemble_files(paths, register_values(layout));
 }
 
 std::int64_t value_at(const Stream& stream, int x, int y) {

@@ -8,52 +8,19 @@
 
 #include "firmware/lib/pixel_planes/igc_driver.h"
 #include "firmware/raster_primitives/host/host_program.h"
-#include "models/machines/pixel_planes/device.h"
-#include "models/machines/pixel_planes/pixel_planes_spec.h"
+#include "tests/support/array_port.h"
 
 /// The shipped micro-programs on a small array, and the pixels in plain integers beside them.
 namespace dendro::raster_primitives {
 
 constexpr int kSide = 64;
 
-pixel_planes::Spec small_spec(int side = kSide);
+inline pixel_planes::Spec small_spec(int side = kSide) { return test::square_array(side); }
 
 /// The sources in firmware/raster_primitives/pixel_planes with these names.
 lib::IgcPrograms assemble(const std::vector<std::string>& names, const Layout& layout);
 
-/// A host whose words go to an array without time; counts the words that programs send to the array.
-class ArrayPort : public HostPort {
- public:
-  explicit ArrayPort(const pixel_planes::Spec& spec) : spec_(spec), device_(spec, false) {}
-
-  std::uint32_t read(std::uint32_t, unsigned) override { return 0; }
-  void write(std::uint32_t address, std::uint32_t value, unsigned) override {
-    if (const auto done = device_.write(address, value)) clocks += done->words;
-  }
-  void dma_to(std::uint32_t address, const std::uint32_t* words, std::size_t count, unsigned function,
-              std::uint32_t step) override {
-    for (std::size_t i = 0; i < count; ++i) write(address + static_cast<std::uint32_t>(i) * step, words[i], function);
-  }
-  void dma_from(std::uint32_t, std::uint32_t*, std::size_t, unsigned, std::uint32_t) override {}
-  void command(std::uint32_t) override {}
-  void wait_interrupt() override {}
-  void compute(const Work& work) override { flops += work.flops; }
-  void phase(std::string_view) override {}
-
-  /// A field of a pixel.
-  std::uint32_t field(int x, int y, unsigned low, unsigned bits) {
-    return device_.peek(static_cast<std::uint32_t>(y * spec_.array.width + x), low) & ((std::uint64_t{1} << bits) - 1);
-  }
-  Picture picture() { return device_.picture(); }
-  std::uint32_t peek(std::uint32_t pixel, unsigned low) const override { return device_.peek(pixel, low); }
-  void program(std::string_view, std::uint32_t) override {}
-
-  std::uint64_t clocks = 0, flops = 0;
-
- private:
-  pixel_planes::Spec spec_;
-  mutable pixel_planes::Device device_;  // reading brings waiting tiles up to date
-};
+using test::ArrayPort;
 
 /// floor(T) at a pixel, from the coefficients as the translator rounds them.
 std::int64_t value_at(const Stream& stream, int x, int y);

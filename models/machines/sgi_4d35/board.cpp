@@ -1,4 +1,4 @@
-#include "models/machines/sgi_4d35/program_port.h"
+#include "models/machines/sgi_4d35/board.h"
 
 #include <algorithm>
 
@@ -6,8 +6,8 @@
 
 namespace dendro::sgi_4d35 {
 
-ProgramPort::ProgramPort(const Spec& spec, const ProgramImage& image, service_block::Services& called)
-    : memory(spec.main_bytes), services(called), program(image.program) {
+Board::Board(std::uint32_t main_bytes, const ProgramImage& image, service_block::Services& calls)
+    : memory(main_bytes), services(calls), program(image.program) {
   for (const ProgramImage::Chunk& chunk : image.chunks) {
     DENDRO_CHECK(chunk.physical <= memory.size() && chunk.bytes.size() <= memory.size() - chunk.physical,
                  "0x{:x} + {} bytes", chunk.physical, chunk.bytes.size());
@@ -21,9 +21,9 @@ void start(r3000::State& state, const ProgramImage& image) {
   state.status = 0;
 }
 
-ProgramResult result_of(const r3000::State& state, const ProgramPort& port, const Spec& spec) {
+ProgramResult result_of(const r3000::State& state, const Board& board, const Spec& spec) {
   ProgramResult result;
-  result.stopped = port.stopped();
+  result.stopped = board.stopped();
   result.pc = state.pc;
   result.return_address = state.r[31];
   result.instructions = state.instructions;

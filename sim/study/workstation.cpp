@@ -1,0 +1,123 @@
+#include "sim/study/workstation.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+
+#include "sim/base/check.h"
+#include "sim/base/error.h"
+#include "sim/scene/image_io.h"
+#include "sim/study/exec_elf.h"
+
+namespace dendro::study {
+namespace {
+
+constexpr std::uint32_t kLabel = 0x7002;
+constexpr double kPicturesASecond = 15;
+
+std::string first_line(const std::string& text) { return text.substr(0, text.find('\n')); }
+
+void add_units(std::vector<UnitStats>& sum, const std::vector<UnitStats>& more) {
+  for (const UnitStats& unit : more) {
+    const auto same = std::find_if(sum.begin(), sum.end(), [&](const UnitStats& u) { return u.unit == unit.unit; });
+    if (same == sum.end()) {
+      sum.push_back(unit);
+      continue;
+    }
+    DENDRO_CHECK(same->values.size() == unit.values.size(), "{}", unit.unit);
+    for (std::size_t i = 0; i < unit.values.size(); ++i) same->values[i].second += unit.values[i].second;
+  }
+}
+
+}  // namespace
+
+std::string shipped_program(const std::string& name) {
+  std::string bytes;
+  for (const ProgramImage::Chunk& chunk : embedded_chunks("mips/" + name + ".elf.hex")) {
+    DENDRO_CHECK(chunk.physical == bytes.size(), "{} has a gap", name);
+    bytes.append(chunk.bytes.begin(), chunk.bytes.end());
+  }
+  return bytes;
+}
+
+ElfWorkstation::ElfWorkstation(const RunRequest& request, const ProgramJob& job, std::string folder, Progress* progress)
+    : request_(request), job_(job), folder_(std::move(folder)), progress_(progress) {}
+
+void ElfWorkstation::run(const std::string& program, const std::vector<std::string>& arguments, bool timed) {
+  const config::ParameterSet& parameters = request_.preset.parameters;
+  const ElfProgram elf = read_elf(shipped_program(program), program);
+  ExecArguments call;
+  call.program = program;
+  call.arguments = arguments;
+  const ProgramImage image = place_program(elf, call, main_bytes_of(parameters));
+  const auto limit = static_cast<std::uint64_t>(request_.options.tick_limit == 0 ? kDefaultTickLimit : request_.options.tick_limit);
+  if (progress_ != nullptr) progress_->phase(program);
+  MemoryServices services(files_);
+  const ProgramResult result = request_.type->exec(parameters, timed ? request_.level : Level::kFunction, image, services, limit,
+                                                   request_.options);
+  const std::string wrong = ending_error(services, result, elf, limit);
+  if (!wrong.empty()) throw UserError(program, 0, "", wrong);
+  if (services.exit_code.value_or(0) != 0) {
+    const std::string said = first_line(services.errors);
+    throw UserError(program, 0, "", said.empty() ? fmt::format("ended with {}", *services.exit_code) : said);
+  }
+  clock_hz_ = result.clock_hz;
+  if (timed) {
+    instructions_ += result.instructions;
+    add_units(units_, result.units);
+    add(program, result, services.marks);
+  } else {
+    add_phase(program + " (untimed)", 0);
+  }
+}
+
+void ElfWorkstation::add(const std::string& program, const ProgramResult& result,
+                         const std::vector<MemoryServices::Mark>& calls) {
+  std::string phase = program + ".start";
+  std::int64_t since = 0;
+  // Without times the phases are told all the same.
+  std::vector<ProgramMark> marks = result.marks;
+  if (marks.empty())
+    for (const MemoryServices::Mark& call : calls) marks.push_back({call.number, call.label, 0, 0});
+  for (const ProgramMark& mark : marks) {
+    const std::string name = mark.number == kLabel ? job_.phase_name(mark.label) : "";
+    if (name.empty()) continue;
+    add_phase(phase, mark.cycles - since);
+    phase = program + "." + name;
+    since = mark.cycles;
+  }
+  add_phase(phase, result.cycles - since);
+  cycles_ += result.cycles;
+}
+
+void ElfWorkstation::add_phase(const std::string& name, std::int64_t cycles) {
+  const auto same = std::find_if(phases_.begin(), phases_.end(), [&](const Phase& p) { return p.name == name; });
+  if (same == phases_.end())
+    phases_.push_back({name, cycles, false});
+  else
+    same->cycles += cycles;
+}
+
+void ElfWorkstation::show(int width, int height, const std::vector<std::uint8_t>& rgb) {
+  if (folder_.empty()) return;
+  std::filesystem::create_directories(folder_ + "/frames");
+  pictures_.push_back(fmt::format("{}/frames/{:04}.png", folder_, pictures_.size()));
+  scene::write_png(pictures_.back(), {width, height, rgb});
+}
+
+void ElfWorkstation::keep(const std::string& name, const std::vector<std::uint8_t>& bytes) {
+  if (folder_.empty()) return;
+  const std::string path = folder_ + "/" + name;
+  std::ofstream file(path, std::ios::binary | std::ios::trunc);
+  file.write(reinterpret_cast<const char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
+  file.close();
+  if (!file) throw UserError(path, 0, "", "cannot write here: the disk is full or the folder is missing or read-only");
+}
+
+void ElfWorkstation::finish() {
+  if (pictures_.size() > 1) scene::write_animation(folder_ + "/animation.gif", pictures_, kPicturesASecond);
+}
+
+}  // namespace dendro::study
