@@ -93,7 +93,7 @@ class Sgi4d35Random : public ::testing::TestWithParam<Level> {
   }
 };
 
-INSTANTIATE_TEST_SUITE_P(Levels, Sgi4d35Random, ::testing::Values(Level::kClocked),
+INSTANTIATE_TEST_SUITE_P(Levels, Sgi4d35Random, ::testing::Values(Level::kClocked, Level::kCycle),
                          [](const auto& info) { return level_name(info.param); });
 
 TEST_P(Sgi4d35Random, ProgramsLeaveWhatTheCoreWithoutTimeLeaves) { compare(1, 100, 300, 3); }

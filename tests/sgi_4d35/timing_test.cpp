@@ -365,7 +365,7 @@ TEST_P(Sgi4d35Timing, ALimitedRunStopsInMem) {
 
 }  // namespace
 
-INSTANTIATE_TEST_SUITE_P(Levels, Sgi4d35Timing, ::testing::Values(Level::kClocked),
+INSTANTIATE_TEST_SUITE_P(Levels, Sgi4d35Timing, ::testing::Values(Level::kClocked, Level::kCycle),
                          [](const auto& info) { return level_name(info.param); });
 
 }  // namespace dendro::sgi_4d35
