@@ -36,23 +36,21 @@ std::uint32_t number(const std::string& text, const std::string& whole) {
   return static_cast<std::uint32_t>(value);
 }
 
-/// Of a program whose own output is standard output.
-void print_summary(const stats::RunObject& run, int exit_code) {
-  const double millions = 1e-6 / std::max(run.host.seconds, 1e-9);
-  const std::string instructions = stats::grouped(static_cast<std::int64_t>(run.instructions));
-  const std::string place = fmt::format("{}:{} level {}", run.machine, run.preset, run.level);
-  const std::string took = stats::readable_seconds(run.host.seconds);
-  if (run.has_time())
-    fmt::print(
-        stderr,
-        "{}: {} instructions, {} cycles = {}, {:.3f} cycles an instruction; in {}, {:.2f} million "
-        "cycles/s, exit code {}\n",
-        place, instructions, stats::grouped(run.cycles), stats::readable_seconds(run.seconds),
-        static_cast<double>(run.cycles) / static_cast<double>(std::max<std::uint64_t>(run.instructions, 1)),
-        took, static_cast<double>(run.cycles) * millions, exit_code);
-  else
-    fmt::print(stderr, "{}: {} instructions in {}, {:.0f} million/s, no time at this level, exit code {}\n",
-               place, instructions, took, static_cast<double>(run.instructions) * millions, exit_code);
+/// What a program that has standard output for itself leaves on the other one.
+void print_run(const study::ExecOutput& output) {
+  const stats::RunObject& run = output.object;
+  const double million = std::max(run.host.seconds, 1e-9) * 1e6;
+  const std::string time =
+      run.has_time()
+          ? fmt::format("{} cycles = {}, {:.0f} million cycles/s", stats::grouped(run.cycles),
+                        stats::readable_seconds(run.seconds), static_cast<double>(run.cycles) / million)
+          : fmt::format("{:.0f} million/s, no time at this level", static_cast<double>(run.instructions) / million);
+  fmt::print(stderr, "{}:{} level {}: {} instructions in {}, {}, exit code {}\n{}", run.machine, run.preset,
+             run.level, stats::grouped(static_cast<std::int64_t>(run.instructions)),
+             stats::readable_seconds(run.host.seconds), time, output.exit_code, study::cause_text(run));
+  for (const stats::PhaseRow& phase : run.phases)
+    fmt::print(stderr, "phase {}: {} cycles\n", phase.name, stats::grouped(phase.cycles));
+  if (!output.profile.empty()) fmt::print(stderr, "{}", study::profile_text(output.profile, run.cycles));
 }
 
 int execute(const study::Catalogue& catalogue, Options options) {
@@ -76,7 +74,7 @@ int execute(const study::Catalogue& catalogue, Options options) {
   for (const std::string& line : output.dump_lines) fmt::print("{}\n", line);
   const stats::RunObject& run = output.object;
   if (output.prints_output) {  // standard output is the program's
-    if (!options.quiet) print_summary(run, output.exit_code);
+    if (!options.quiet) print_run(output);
     json.commit(study::exec_json(output));
     return output.exit_code;
   }
@@ -111,6 +109,7 @@ void add_exec(CLI::App& app, const study::Catalogue& catalogue, Action& action) 
       ->check(some_text());
   command->add_option("--progress", o->progress, "auto, on or off")
       ->check(CLI::IsMember({"auto", "on", "off"}));
+  command->add_flag("--profile", o->exec.profile, "ELF files, level cycle: cycles by function");
   command->add_flag("--quiet", o->quiet, "print no summary");
   add_waveform(*command, machine);
   add_pipeline_log(*command, machine);

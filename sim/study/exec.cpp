@@ -174,6 +174,8 @@ ExecOutput exec_program(const Catalogue& catalogue, const ExecArguments& argumen
   const MachineType* type = catalogue.machine(exec_preset(catalogue, arguments).machine);
   if (type->exec) return exec_elf(catalogue, arguments);
   const Prepared prepared = prepare(catalogue, arguments);
+  if (arguments.profile)
+    throw UserError("--profile", 0, "", "profiles exist for programs that are ELF files only");
   if (!arguments.options.vcd_file.empty() && prepared.level != Level::kClocked)
     throw UserError("--vcd", 0, "", "waveforms exist at --level clocked only");
   const Json json =
@@ -193,6 +195,11 @@ std::string exec_json(const ExecOutput& output) {
     json[key] = run[key];
   json["exit_code"] = output.exit_code;
   for (const char* key : {"phases", "units", "host", "elaborated", "machine_cycles"}) json[key] = run[key];
+  if (!output.profile.empty()) {
+    json["profile"] = Json::array();
+    for (const ProfileRow& row : output.profile)
+      json["profile"].push_back({{"function", row.name}, {"calls", row.calls}, {"cycles", row.cycles}});
+  }
   return json.dump(1) + "\n";
 }
 

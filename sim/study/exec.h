@@ -4,6 +4,7 @@
 #include <utility>
 #include <vector>
 
+#include "sim/study/exec_profile.h"
 #include "sim/study/run.h"
 
 namespace dendro::study {
@@ -18,6 +19,7 @@ struct ExecArguments {
   std::vector<std::string> arguments;  ///< of the program, its own name not among them; pixel-planes: commands
   std::vector<std::string> settings;   ///< key=value of machine parameters
   std::vector<std::pair<std::uint32_t, std::uint32_t>> dumps;  ///< scratch address or pixel, how many
+  bool profile = false;  ///< `cycle` of a machine whose programs are ELF files: cycles by function
   MachineOptions options;
 };
 
@@ -25,6 +27,7 @@ struct ExecOutput {
   stats::RunObject object;     ///< without scene, picture and error
   int exit_code = 0;           ///< of a microprogram: low byte of scratch word 0
   bool prints_output = false;  ///< the program wrote to standard output itself
+  std::vector<ProfileRow> profile;
   std::vector<std::vector<std::uint32_t>> dumps;  ///< scratch words
   std::vector<std::string> dump_lines;            ///< these, or pixels, as text
 };

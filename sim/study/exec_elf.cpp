@@ -151,6 +151,8 @@ ExecOutput exec_elf(const Catalogue& catalogue, const ExecArguments& arguments) 
     throw UserError("--dump", 0, "", type.name + " has no scratchpad; let the program print");
   if (!arguments.options.vcd_file.empty() && level != Level::kClocked)
     throw UserError("--vcd", 0, "", "waveforms exist at --level clocked only");
+  if (arguments.profile && level != Level::kCycle)
+    throw UserError("--profile", 0, "", "profiles exist at --level cycle only");
   if (!arguments.options.pipeline_file.empty() && level != Level::kClocked)
     throw UserError("--pipeline", 0, "", "pipeline logs exist at --level clocked only");
   const ElfProgram program = read_elf(config::read_text({false, arguments.program}, {}), arguments.program);
@@ -159,8 +161,11 @@ ExecOutput exec_elf(const Catalogue& catalogue, const ExecArguments& arguments) 
   const auto limit = arguments.options.tick_limit == 0 ? kDefaultTickLimit : arguments.options.tick_limit;
   HostServices services;
   const auto start = std::chrono::steady_clock::now();
+  MachineOptions options = arguments.options;
+  std::map<std::uint32_t, WordClocks> words;
+  if (arguments.profile) options.word_clocks = &words;
   const ProgramResult result =
-      type.exec(preset.parameters, level, image, services, static_cast<std::uint64_t>(limit), arguments.options);
+      type.exec(preset.parameters, level, image, services, static_cast<std::uint64_t>(limit), options);
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   const std::string wrong = ending_error(services, result, program, static_cast<std::uint64_t>(limit));
   if (!wrong.empty()) throw UserError(arguments.program, 0, "", wrong);
@@ -174,11 +179,18 @@ ExecOutput exec_elf(const Catalogue& catalogue, const ExecArguments& arguments) 
   object.clock_hz = result.clock_hz;
   object.cycles = object.machine_cycles = result.cycles;
   object.seconds = static_cast<double>(result.cycles) / result.clock_hz;
-  if (object.has_time()) object.phases.push_back({"program", result.cycles, object.seconds, false});
   object.elaborated = {type.name};
   object.instructions = result.instructions;
   for (const UnitStats& unit : result.units) object.units.push_back({unit.unit, unit.values});
+  for (const Phase& phase : phases_of(result.marks, result.cycles))
+    object.phases.push_back(
+        {phase.name, phase.cycles, static_cast<double>(phase.cycles) / result.clock_hz, phase.on_host});
+  if (object.has_time() && object.phases.empty())
+    object.phases.push_back({"program", result.cycles, object.seconds, false});
+  if (arguments.profile) output.profile = profile_of(words, program);
   object.host.seconds = seconds;
+  object.host.simulated_hz = static_cast<double>(result.cycles) / std::max(seconds, 1e-9);
+  object.host.real_time_factor = object.seconds / std::max(seconds, 1e-9);
   object.host.peak_rss_bytes = peak_rss();
   const auto assumptions = preset.parameters.assumptions();
   object.assumptions.assign(assumptions.begin(), assumptions.end());

@@ -46,10 +46,13 @@ ProgramResult run_cycle(const Spec& spec, const ProgramImage& image, service_blo
       marks.push_back(*mark);
     }
   }
-  core.settle();
   const r3000::State& state = core.state();
   ProgramResult result = result_of(state, port, spec);
-  const Counters counters = core.time().counters(state.instructions, core.time().bias);
+  Counters counters;
+  if (limit != 0) {  // else no clock passes
+    core.settle();
+    counters = core.time().counters(state.instructions, core.time().bias);
+  }
   result.cycles = static_cast<std::int64_t>(counters.cycles);
   result.marks = marks;
   result.units = units_of(counters, r3000::counters_of(state));

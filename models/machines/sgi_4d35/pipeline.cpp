@@ -37,42 +37,64 @@ void Pipeline::isolated_write(std::uint32_t address, unsigned size, bool swapped
     data_.invalidate(address);
 }
 
+/// IF looks at a word in clock `now` and would go on in `look(now)`. What stands in ALU issues only in the run clock:
+/// where another unit rounds in between, ALU holds up IF, which then may miss the clock of its word.
+template <class Look>
+std::uint64_t Pipeline::wait_in_fetch(std::uint64_t now, const Look& look) {
+  std::uint64_t then = look(now);
+  if (then == now) return now;
+  if (in_alu_.issue != nullptr && in_alu_.clock == now) {
+    for (then = now;; ++then) {
+      if (fpu_.when_still(*in_alu_.issue, then) != then)
+        ++stall_fp_;
+      else if (look(then) != then)
+        ++stall_instruction_miss_;
+      else
+        break;
+    }
+    in_alu_.clock = then;
+    if (in_alu_.good) fpu_.issue(*in_alu_.issue, then);
+  } else {
+    stall_instruction_miss_ += then - now;
+  }
+  if (multiplier_start_ == now && now != 0) {
+    multiplier_start_ += then - now;
+    multiplier_free_ += then - now;
+  }
+  bus_.delay_newest(now, then);
+  return then;
+}
+
 std::uint64_t Pipeline::fetch(std::uint32_t address, std::uint64_t now, bool warm) {
   ++instruction_accesses_;
-  std::uint64_t then = now;
   const std::uint32_t block = instruction_.block_of(address);
-  const auto word_there = [&] {
-    return stream_start_ + spec_.bus.first_word_cycles +
-           std::uint64_t{(address - block) / 4 + 1} * spec_.bus.word_cycles;
-  };
-  if (instruction_.hit(address)) {
-    if (streaming(now)) then = block == stream_block_ && now <= word_there() ? word_there() : stream_end_;
-  } else {
+  std::uint64_t end = 0;  // of a read without streaming
+  if (!instruction_.hit(address)) {
     ++instruction_misses_;
     instruction_.fill(address);
     if (warm) return now;
     const unsigned words = spec_.instruction_cache.refill_words;
     const std::uint64_t start = bus_.read_block(block, words, now);
-    const std::uint64_t end =
-        start + spec_.bus.first_word_cycles + std::uint64_t{words} * spec_.bus.word_cycles;
+    end = start + spec_.bus.first_word_cycles + std::uint64_t{words} * spec_.bus.word_cycles;
     if (spec_.instruction_cache.streaming) {
       stream_block_ = block;
       stream_start_ = start;
       stream_end_ = end;
-      then = word_there();
-    } else {
-      then = end;
+      end = 0;
     }
   }
-  stalled(stall_instruction_miss_, now, then);
-  return then;
+  return wait_in_fetch(now, [&](std::uint64_t clock) {
+    if (!streaming(clock)) return std::max(clock, end);
+    const std::uint64_t there = stream_start_ + spec_.bus.first_word_cycles +
+                                std::uint64_t{(address - block) / 4 + 1} * spec_.bus.word_cycles;
+    return block == stream_block_ && clock <= there ? there : stream_end_;
+  });
 }
 
 std::uint64_t Pipeline::fetch_uncached(std::uint32_t address, std::uint64_t now) {
-  const std::uint64_t then =
+  const std::uint64_t end =
       bus_.read_uncached(address, now) + spec_.bus.first_word_cycles + spec_.bus.word_cycles;
-  stalled(stall_instruction_miss_, now, then);
-  return then;
+  return wait_in_fetch(now, [end](std::uint64_t clock) { return std::max(clock, end); });
 }
 
 std::uint64_t Pipeline::memory_slowly(std::uint64_t now) {

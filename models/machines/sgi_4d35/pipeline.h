@@ -69,6 +69,7 @@ class Pipeline {
   Issue issue_of(std::uint32_t word) const { return r3010::issue_of(word, fpu_timing_); }
   std::uint64_t fp_issue(std::uint64_t now, const Issue& issue, bool good) {
     const std::uint64_t then = fpu_.when(issue, now);
+    in_alu_ = {&issue, then, good};
     if (good) fpu_.issue(issue, then);
     return stalled(stall_fp_, now, then);
   }
@@ -82,6 +83,7 @@ class Pipeline {
   }
   std::uint64_t multiply_divide(std::uint64_t now, bool divide) {
     const std::uint64_t stall = multiplier(now);
+    multiplier_start_ = now + stall;
     multiplier_free_ = now + stall + (divide ? spec_.pipeline.divide_cycles : spec_.pipeline.multiply_cycles);
     return stall;
   }
@@ -126,6 +128,12 @@ class Pipeline {
     std::uint32_t address = 0;
     bool valid = false;  ///< kSwapped: the word becomes valid
   };
+  /// The last arithmetic word of coprocessor 1, which issues in the run clock, so not while IF waits.
+  struct InAlu {
+    const Issue* issue = nullptr;
+    std::uint64_t clock = 0;
+    bool good = false;
+  };
   struct Waiting {
     Retired word;
     bool listed = false, refill = false, rfe = false;
@@ -138,6 +146,8 @@ class Pipeline {
     return then - now;
   }
   void miss(std::uint32_t address);
+  template <class Look>
+  std::uint64_t wait_in_fetch(std::uint64_t now, const Look& look);
   void write_part(std::uint32_t address);
   std::uint64_t memory_slowly(std::uint64_t now);
 
@@ -148,7 +158,8 @@ class Pipeline {
   r3010::Scoreboard fpu_;
   Event event_, put_off_, swap_;
   bool same_access_ = false;
-  std::uint64_t multiplier_free_ = 0;
+  InAlu in_alu_;
+  std::uint64_t multiplier_start_ = 0, multiplier_free_ = 0;
   std::uint64_t stream_start_ = 0, stream_end_ = 0;  ///< read of the instruction block at stream_block_
   std::uint32_t stream_block_ = 0;
   Waiting waits_[4];

@@ -40,6 +40,11 @@ class Scoreboard {
     ready_[kNoRegister] = 0;
     if (rounding_ && o.unit != Unit::kAdder) rounds_[o.unit == Unit::kDivider] = end - 1;
   }
+  /// It could have issued before `now`, and the pipeline stood: when it can from `now` on. Only the clocks in which
+  /// another unit rounds can come in between.
+  std::uint64_t when_still(const Issue& o, std::uint64_t now) const {
+    return rounding_ ? clear_of_rounding(o, now) : now;
+  }
   /// A move that reads or writes a register; kConditionRegister for a branch on the condition.
   std::uint64_t when_register(unsigned reg, std::uint64_t now) const { return std::max(now, ready_[reg]); }
   /// Nothing is under way in any unit.
