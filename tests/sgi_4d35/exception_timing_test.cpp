@@ -113,6 +113,17 @@ TEST_P(Sgi4d35Timing, AnArithmeticWordThatInterruptsTakesNoUnit) {
   EXPECT_EQ(2u, counter("processor.exceptions"));
 }
 
+TEST_P(Sgi4d35Timing, AnArithmeticWordWhoseExceptionIsMaskedTakesItsUnit) {
+  // The quotient by zero issues in 1; its register and its unit are busy until 13.
+  timed_.setup = {high(kT0, 0x2000), to_cp0(kT0, r3000::kStatus), r3000::cop_word(1, r3000::kMtc, kT0, 4),
+                  or_immediate(kS4, 0, 8u << r3010::kEnableShift)};
+  const auto quotient = r3010::fp_word(r3010::kSingle, r3010::kDiv, 2, 4, 6);
+  for (const auto word : {r3000::cop_word(1, r3000::kMfc, kT2, 2), r3000::cop_word(1, r3000::kCfc, kT2, 31)})
+    EXPECT_EQ((Clocks{0, 1, 13, 14}),
+              clocks({r3000::cop_word(1, r3000::kCtc, kS4, 31), kNop, quotient, word}));
+  EXPECT_EQ(0u, counter("processor.exceptions"));
+}
+
 TEST_P(Sgi4d35Timing, AnInterruptedWordWaitsForNothingAndComesBack) {
   timed_.setup = {add_immediate(kS4, 0, 0x100), or_immediate(kS5, kT0, 0x101)};
   timed_.handler = {to_cp0(0, r3000::kCause), from_cp0(kK0, r3000::kEpc), kNop, kJumpBack, kRfe};

@@ -61,9 +61,9 @@ void run_and_send(int file, Level level, const Spec& spec, const ProgramImage& i
   r3000::State state;
   options.retired = &retired;
   options.final_state = &state;
-  const ProgramResult result = level == Level::kCycle
-                                   ? run_cycle(spec, image, services, limit, options)
-                                   : run_clocked(spec, image, services, limit, options);
+  if (level != Level::kClocked && level != Level::kCycle) throw std::runtime_error("no such level");
+  const ProgramResult result = level == Level::kCycle ? run_cycle(spec, image, services, limit, options)
+                                                      : run_clocked(spec, image, services, limit, options);
   put_number(file, retired.size());
   put(file, retired.data(), retired.size() * sizeof(Retired));
   put_number(file, static_cast<std::uint64_t>(result.cycles));

@@ -352,6 +352,33 @@ TEST_P(Sgi4d35Timing, AnAdderSlotCanBeLostDuringAMiss) {
   expect_counters(early, {{"processor.stall_fp", 2}, {"processor.stall_instruction_miss", 20}});
 }
 
+TEST_P(Sgi4d35Timing, AFetchIsNotLookedAtWhileAluWaits) {
+  // Word 5 (mult) leaves ALU in clock 18, word 6 (mflo) in 30 at the earliest; only then is word 8's block
+  // asked for, which is there in 41.
+  const Ran product = from_reset({kNop, kNop, kNop, kNop, kNop, multiply(), from_lo(kT2), kNop}, 7);
+  EXPECT_EQ(43u, product.cycles);
+  expect_counters(product,
+                  {{"processor.stall_multiply_divide", 11}, {"processor.stall_instruction_miss", 22}});
+  // A quotient in 18, a word that reads it in 30.
+  const Ran quotient = from_reset({high(kT0, 0x2000), to_cp0(kT0, r3000::kStatus), kNop, kNop, kNop,
+                                   fp(kSingle, r3010::kDiv, 2, 4, 6), fp(kSingle, r3010::kMov, 8, 2), kNop},
+                                  7);
+  EXPECT_EQ(43u, quotient.cycles);
+  expect_counters(quotient, {{"processor.stall_fp", 11}, {"processor.stall_instruction_miss", 22}});
+}
+
+TEST_P(Sgi4d35Timing, AnOperationIssuesWhenTheStoreBeforeItLeavesMem) {
+  const std::uint32_t sum = fp(kSingle, r3010::kAdd, 8, 4, 6),
+                      equal = fp(kSingle, r3010::kCompare + 2, 0, 4, 6);
+  // The sum issues in the clock in which the store leaves MEM; it and the comparison take the adder for 2
+  // clocks each.
+  EXPECT_EQ((Clocks{0, 2, 4, 5}), clocks({store_byte(kT0, kData), sum, equal, sum}));
+  Spec spec = small();
+  spec.bus.entries = 1;
+  EXPECT_EQ((Clocks{0, 7, 9, 11, 12}),
+            clocks({store(kT0, kData), store(kT0, kData, 4), sum, equal, sum}, spec));
+}
+
 TEST_P(Sgi4d35Timing, ALimitedRunStopsInMem) {
   // The second store finds no entry before clock 16 + 7.
   Spec spec = small();
@@ -365,7 +392,7 @@ TEST_P(Sgi4d35Timing, ALimitedRunStopsInMem) {
 
 }  // namespace
 
-INSTANTIATE_TEST_SUITE_P(Levels, Sgi4d35Timing, ::testing::Values(Level::kClocked, Level::kCycle),
-                         [](const auto& info) { return level_name(info.param); });
+INSTANTIATE_TEST_SUITE_P(Levels, Sgi4d35Timing, ::testing::Values(Level::kCycle, Level::kClocked),
+                         [](const auto& level) { return level_name(level.param); });
 
 }  // namespace dendro::sgi_4d35
