@@ -74,6 +74,7 @@ std::vector<std::pair<std::string, double>> hulls_facts(const PreparedHulls& pre
           {"planes.edge_on", count(edge_on)},
           {"planes.front", count(front)},
           {"planes.wide", count(wide)},
+          {"max_depth", count(prepared.maxdepth)},
           {"splits", count(prepared.splits)},
           {"host.flops", count(prepared.setup_flops)},
           {"host.growth_flops", count(prepared.growth.flops)}};

@@ -63,6 +63,7 @@ class HalfSpaceJob : public Job {
             {"planes.wide", count(program.wide_records())},
             {"box.width", static_cast<double>(program.box.width())},
             {"box.height", static_cast<double>(program.box.height())},
+            {"max_depth", static_cast<double>(program.maxdepth)},
             {"host.flops", static_cast<double>(prepared_.setup_flops)},
             {"host.growth_flops", static_cast<double>(prepared_.growth.flops)}};
   }

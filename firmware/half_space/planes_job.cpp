@@ -75,6 +75,7 @@ class PlanesJob : public Job {
             {"planes.back", count(prepared_.planes(PlaneKind::kBack))},
             {"planes.edge_on", count(prepared_.planes(PlaneKind::kEdgeOn))},
             {"planes.front", count(prepared_.planes(PlaneKind::kFront))},
+            {"max_depth", count(prepared_.maxdepth)},
             {"depth_bits", count(prepared_.layout.depth_bits)},
             {"memory_bits_used", count(prepared_.layout.used)},
             {"guard_bits.most", count(most_guard)},

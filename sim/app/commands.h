@@ -31,6 +31,7 @@ void add_exec(CLI::App& app, const study::Catalogue& catalogue, Action& action);
 void add_record(CLI::App& app, const study::Catalogue& catalogue, Action& action);
 void add_replay(CLI::App& app, const study::Catalogue& catalogue, Action& action);
 void add_asm(CLI::App& app, const study::Catalogue& catalogue, Action& action);
+void add_compare(CLI::App& app, Action& action);
 void add_bench(CLI::App& app, const study::Catalogue& catalogue, Action& action);
 
 }  // namespace dendro::app

@@ -92,6 +92,7 @@ int main(int argc, char** argv) {
   app::add_levels(command, catalogue, action);
   app::add_stability(command, catalogue, action);
   app::add_sweep(command, catalogue, action);
+  app::add_compare(command, action);
   app::add_exec(command, catalogue, action);
   app::add_record(command, catalogue, action);
   app::add_replay(command, catalogue, action);

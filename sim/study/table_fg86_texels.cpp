@@ -58,6 +58,7 @@ void fill_texels(const TableContext& context, std::vector<TableRow>& rows) {
   const std::vector<Metric> metrics = {{"texels", texels_a_frame}};
   const Propagated p = propagate_request(context, probe.request(), metrics, "FG86 texels");
   set_metric(rows[0], p, metrics, 0);
+  rows[0].assumptions.insert(rows[0].assumptions.begin(), "DEV-091");
   rows[0].note = fmt::format(
       "{:.1f} clocks a texel, whatever number of pixels shows it; the {:.0f} of a cube take {:.1f} frames. Needs {} bits of "
       "coordinates a pixel, which 72 do not hold beside three depths of 16 and a colour",
