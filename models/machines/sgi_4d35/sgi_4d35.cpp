@@ -69,6 +69,10 @@ Spec resolve(const config::ParameterSet& parameters) {
 }
 
 std::vector<UnitStats> units_of(const Counters& c, const r3000::Counters& events) {
+  const auto cache = [&c](const char* name, std::uint64_t accesses, std::uint64_t misses) -> UnitStats {
+    return {name,
+            {{"cycles", c.cycles}, {"busy", accesses}, {"idle", c.cycles - accesses}, {"misses", misses}}};
+  };
   return {{"sgi_4d35.processor",
            {{"cycles", c.cycles},
             {"busy", c.busy},
@@ -86,9 +90,8 @@ std::vector<UnitStats> units_of(const Counters& c, const r3000::Counters& events
             {"exceptions", events.exceptions},
             {"tlb_refills", events.tlb_refills},
             {"tlb_refill_cycles", c.tlb_refill_cycles}}},
-          {"sgi_4d35.instruction_cache",
-           {{"accesses", c.instruction_accesses}, {"misses", c.instruction_misses}}},
-          {"sgi_4d35.data_cache", {{"accesses", c.data_accesses}, {"misses", c.data_misses}}},
+          cache("sgi_4d35.instruction_cache", c.instruction_accesses, c.instruction_misses),
+          cache("sgi_4d35.data_cache", c.data_accesses, c.data_misses),
           {"sgi_4d35.memory",
            {{"cycles", c.cycles},
             {"busy", c.memory_busy},
