@@ -18,6 +18,8 @@
 namespace dendro::study {
 namespace {
 
+constexpr double kMostStream = 4611686018427387904.0;  // 2^62: what is larger saturates
+
 [[noreturn]] void fail(const std::string& command, const std::string& what) { throw UserError("", 0, command, what); }
 
 std::uint64_t number(const std::string& command, const std::string& what, const std::string& text, std::uint64_t most) {
@@ -100,6 +102,13 @@ void IgcExec::read(const std::string& file, const std::string& text) {
   }
 }
 
+void IgcExec::check_fits(const std::string& word, const Command& command) {
+  for (const float value : {command.expression->a, command.expression->b, command.expression->c})
+    if (std::abs(std::ldexp(static_cast<double>(value), static_cast<int>(command.fraction))) >= kMostStream)
+      fail(word, fmt::format("{} with {} fraction bits is too large for any number of guard bits: a stream has {}", value,
+                             command.fraction, igc::kStreamBits));
+}
+
 IgcExec::Command IgcExec::parse(const std::string& word) {
   Command command;
   const std::vector<std::string> parts = split(word, ':');
@@ -122,6 +131,7 @@ IgcExec::Command IgcExec::parse(const std::string& word) {
     else
       command.expression = expression(word, parts[k]);
   }
+  if (command.expression) check_fits(word, command);
   return command;
 }
 

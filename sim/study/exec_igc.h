@@ -38,6 +38,7 @@ class IgcExec {
 
   void assemble(const ExecArguments& arguments, const std::string& text);
   void read(const std::string& file, const std::string& text);
+  static void check_fits(const std::string& word, const Command& command);
   static Command parse(const std::string& word);
   void check(const std::string& file) const;
   std::string names() const;

@@ -164,6 +164,7 @@ bool Reader::header_line(std::string_view line) {
     const std::int64_t number = number_of(text);
     if (number < 0) fail(header_lines_, fmt::format("`{}` is not a number of {}", text, key));
     (key == "from" ? header_.from : key == "records" ? records_ : packed_) = number;
+    if (key == "records" && !signed_off()) fail(0, "is truncated: the checksum at its end is missing");
     return key != "zstd";
   } else {
     fail(header_lines_,
@@ -172,6 +173,11 @@ bool Reader::header_line(std::string_view line) {
                      key));
   }
   return true;
+}
+
+bool Reader::signed_off() const {
+  const std::string_view all = bytes_;
+  return all.size() >= kDigestLine && starts_with(all.substr(all.size() - kDigestLine), kDigest) && all.back() == '\n';
 }
 
 void Reader::check_envelope() {
@@ -183,12 +189,8 @@ void Reader::check_envelope() {
       fail(0, "is truncated: its end is missing");
     body_end_ = body_ + packed;
   }
-  const std::size_t line = all.size() < kDigestLine ? 0 : all.size() - kDigestLine;
-  const bool signed_off = starts_with(all.substr(line), kDigest) && all.back() == '\n';
-  if (!signed_off) {
-    if (records_ >= 0) fail(0, "is truncated: the checksum at its end is missing");
-    return;  // written by hand
-  }
+  if (!signed_off()) return;  // written by hand
+  const std::size_t line = all.size() - kDigestLine;
   if (base::sha256(all.substr(0, line)) != all.substr(line + kDigest.size(), 64))
     fail(0, "is corrupt: its content does not have the checksum at its end");
   if (packed_ < 0) body_end_ = line;

@@ -84,6 +84,7 @@ class Reader {
   bool next_line(std::string_view& line);
   bool header_line(std::string_view line);
   void read_header();
+  bool signed_off() const;  ///< the last line is a checksum
   void check_envelope();
   void check(const Record& record) const;
   void check_singles(const Record& record, const std::vector<std::string>& allowed) const;

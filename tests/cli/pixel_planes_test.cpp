@@ -54,10 +54,114 @@ TEST_F(PixelPlanes, WhatDoesNotFitIsOneLine) {
 
 TEST_F(PixelPlanes, CommandsThatDoNotApplySaySoInOneLine) {
   expect_user_error("run icosahedron --machine pixel-planes --cost", "there is no cost by pixel");
+  expect_user_error("run icosahedron --machine pixel-planes --level estimate", "pixel-planes has no level `estimate`");
+  expect_user_error("run icosahedron --machine pixel-planes --vcd f.vcd", "--level clocked only");
   write("p.ucode", "");
-  expect_user_error("exec pixel-planes p.ucode", "pixel-planes has no processor that runs a program by itself");
   expect_user_error("disasm pixel-planes p.ucode", "p.ucode:1: the file is truncated");
-  expect_user_error("record icosahedron --machine pixel-planes --boundary pixel_planes.commands --out o", "boundary");
+  expect_user_error("exec pixel-planes p.ucode -- p", "p.ucode:1: the file is truncated");
+  expect_user_error("asm pixel-planes p.igc -o - --listing l", "there are listings of rds3000 programs only");
+  expect_user_error("record icosahedron --machine pixel-planes --boundary rds3000.host --out o",
+                    "--boundary: pixel-planes has no boundary `rds3000.host`: pixel_planes.commands, pixel_planes.array");
+}
+
+const char* const kPrograms =
+    "register f = 1;\nregister n = 2;\n"
+    "program store phase scan { enable = 1; loop fraction { tree; } loop n { f[i] = tree; } }\n"
+    "program fill { enable = 1; loop n { f[i] = constant; } }\n";
+const char* const kSmall = " --set array.width=64 --set array.height=64 ";
+
+TEST_F(PixelPlanes, ExecSendsCommandsToMicroprograms) {
+  write("p.igc", kPrograms);
+  ASSERT_EQ(0, dendro("asm pixel-planes p.igc -o p.ucode").status);
+  const std::string commands = "store:0.5,-2,3:fraction=1 ";
+  std::string first;
+  for (const std::string level : {"cycle", "clocked"}) {
+    const Result source = dendro(std::string("exec pixel-planes p.igc") + kSmall + "--level " + level +
+                                 " --dump 0:2 --dump 64 -- f=8 n=16 " + commands + "f=40 n=24 fill:constant=0xabcdef");
+    ASSERT_EQ(0, source.status) << source.err;
+    EXPECT_EQ(0u, source.out.find("pixel[0] = 0x00abcdef0000000300\npixel[1] = 0x00abcdef0000000300\npixel[64] = 0x00abcdef0000000100\n"))
+        << source.out;
+    const Result words = dendro(std::string("exec pixel-planes p.ucode") + kSmall + "--level " + level +
+                                " --dump 0:2 --dump 64 -- r1=8 r2=16 " + commands + "r1=40 r2=24 fill:constant=0xabcdef");
+    const auto pixels = [](const std::string& out) { return out.substr(0, out.find("pixel-planes")); };
+    EXPECT_EQ(pixels(source.out), pixels(words.out)) << words.err;
+    const auto clocks = [](const std::string& out) { return out.substr(out.find(": ")); };
+    EXPECT_EQ(first.empty() ? clocks(source.out) : first, clocks(source.out));
+    first = clocks(source.out);
+  }
+  ASSERT_EQ(0, dendro("exec pixel-planes p.igc --quiet --json o.json -- n=16 store:1,1,1:fraction=4").status);
+  const json object = json::parse(read("o.json"));
+  std::int64_t scan = 0;
+  for (const json& phase : object["phases"])
+    if (phase["name"] == "scan") scan = phase["cycles"];
+  EXPECT_GE(scan, 1 + 4 + 16) << "the clocks of the command are booked under the program's phase";
+  EXPECT_LE(scan, 1 + 4 + 16 + 4);
+}
+
+TEST_F(PixelPlanes, CommandsThatCannotBeSentAreOneLine) {
+  write("p.igc", kPrograms);
+  const std::string exec = "exec pixel-planes p.igc ";
+  expect_user_error(exec, "p.igc: its programs run when they are commanded");
+  expect_user_error(exec + "-- store", "store: takes an expression: store:A,B,C");
+  expect_user_error(exec + "-- g=3", "p.igc: g: is not there: it has programs fill, store; registers f, n");
+  expect_user_error(exec + "-- f=256", "f=256: value: `256` is not a whole number from 0 to 255");
+  expect_user_error(exec + "-- f=60 n=16 fill:constant=1", "`f` reaches bit 75 of a pixel; the memory has bits 0..71");
+  expect_user_error(exec + "--dump 262144 -- fill", "--dump: the array has pixels 0 to 262143");
+  for (const char* value : {"nan", "inf", "-inf", "1e39"})
+    expect_user_error(exec + "-- store:1," + value + ",0", "is no finite number of single precision");
+  expect_user_error(exec + "-- store:1e18,0,0:fraction=8", "is too large for any number of guard bits");
+  expect_user_error(exec + "-- store:1,2", "`1,2` is not A,B,C");
+  expect_user_error(exec + "-- store:1,2,3:guard=64", "guard: `64` is not a whole number from 0 to 63");
+  write("two.igc", "register f = 1;\nprogram p { enable = 1; loop 4 { f[i + 4] = f[i]; } }\n");
+  ASSERT_EQ(0, dendro("asm pixel-planes two.igc -o two.ucode").status);
+  expect_user_error("exec pixel-planes two.ucode -- p", "two.ucode: word 1 uses two ports: the array's memory has 1");
+  EXPECT_EQ(0, dendro("exec pixel-planes two.ucode --set array.ports=2 -- p").status);
+}
+
+TEST_F(PixelPlanes, CoefficientsOfAnySizeAreDrawnOrRefused) {
+  const std::string rest = ", [0,1,0,1], [0,-1,0,1], [0,0,1,1], [0,0,-1,1]]\n";
+  const std::string run = "run s.toml --machine pixel-planes --set parameters.array.width=64 --set parameters.array.height=64 ";
+  for (const char* bad : {"[nan,0,0,1], [-1,0,0,1]", "[1,0,0,inf], [-1,0,0,1]"}) {
+    write("s.toml", scene_with("planes = [" + std::string(bad) + rest));
+    expect_user_error(run, "must be a list of 4 finite numbers");
+  }
+  write("s.toml", scene_with("planes = [[1,0,0.19,1e30], [-1,0,0,1e30]" + rest));
+  expect_user_error(run, "no point lies inside all 6 planes");
+  // Depths that no guard bits hold: the nearly edge-on planes are taken as edges.
+  for (const char* steep : {"[1,0,-1e-12,1], [-1,0,1e-14,1]", "[5,0,-1.0000001,5], [-1,0,0,1]", "[1,0,0.2000000001,1], [-1,0,-0.19999999999999,1]"}) {
+    write("s.toml", scene_with("planes = [" + std::string(steep) + rest));
+    const Result result = dendro(run + "--out o --json o.json --quiet");
+    ASSERT_EQ(0, result.status) << result.err;
+    const json object = json::parse(read("o.json"));
+    EXPECT_EQ(0, object["error"]["wrong_pixels"].get<double>()) << steep;
+    EXPECT_LT(2000, object["error"]["covered_pixels"].get<double>()) << steep;
+  }
+}
+
+TEST_F(PixelPlanes, AFifoThatIsTooSmallStallsTheHostAndLosesNothing) {
+  const std::string run = "run icosahedron --machine pixel-planes --set image.width=64 --set image.height=64 --quiet"
+                          " --set parameters.array.width=64 --set parameters.array.height=64 --set parameters.host.word_ns=1";
+  const auto object = [&](const std::string& more, const std::string& file) {
+    EXPECT_EQ(0, dendro(run + more + " --out o --json " + file).status);
+    return json::parse(read(file));
+  };
+  const json deep = object("", "deep.json");
+  for (const char* level : {"cycle", "clocked"}) {
+    const json shallow = object(std::string(" --set parameters.fifo.depth_words=8 --level ") + level, "shallow.json");
+    EXPECT_EQ(deep["units"]["pixel_planes.controller"]["commands"], shallow["units"]["pixel_planes.controller"]["commands"]);
+    EXPECT_EQ(deep["units"]["pixel_planes.host"]["fifo_words"], shallow["units"]["pixel_planes.host"]["fifo_words"]);
+    EXPECT_GT(shallow["units"]["pixel_planes.host"]["fifo_full_clocks"].get<int>(), 100) << level;
+    EXPECT_EQ(deep["image"]["sha256"], shallow["image"]["sha256"]);
+  }
+  EXPECT_EQ(0, deep["units"]["pixel_planes.host"]["fifo_full_clocks"].get<int>());
+}
+
+TEST_F(PixelPlanes, FieldsAndPicturesThatThePixelsDoNotHoldAreOneLine) {
+  for (const char* scene : {"icosahedron", "teapot"}) {
+    const std::string run = std::string("run ") + scene + " --machine pixel-planes --set parameters.array.";
+    expect_user_error(run + "memory_bits=40", "memory has 40");
+    expect_user_error(run + "height=256", "image.height: 512 is more than the 256 pixels of the array");
+  }
 }
 
 TEST_F(PixelPlanes, MicroprogramsAssembleAndComeBack) {

@@ -131,6 +131,9 @@ class CommandReplay : public trace::ReplayedUnit {
 
   // The words of a command, or one that stands for itself.
   void offer(const Record& record, const std::vector<std::uint32_t>& words, std::int64_t at) {
+    for (std::size_t k = words.size(); k < 6; ++k)
+      if (record.has("at" + std::to_string(k)))
+        replayer_.fail(record, fmt::format("at{}: the command has {} words", k, words.size()));
     std::int64_t landed = now_;
     for (std::size_t k = 0; k < words.size(); ++k) {
       std::int64_t clock = landed;
@@ -141,9 +144,6 @@ class CommandReplay : public trace::ReplayedUnit {
       landed = unit_->offer(clock, words[k]);
       words_.push_back(words[k]);
     }
-    for (std::size_t k = words.size(); k < 6; ++k)
-      if (record.has("at" + std::to_string(k)))
-        replayer_.fail(record, fmt::format("at{}: the command has {} words", k, words.size()));
     now_ = landed;
     replayer_.expect_key(record, "landed", landed - at, fmt::format("clocks from tick {} until the last word is in the FIFO:", at));
     if (unit_->lacks_words()) {

@@ -156,6 +156,25 @@ TEST(HandWritten, WrongLinesAreErrorsWithTheirLine) {
   }
 }
 
+TEST(HandWritten, ANumberWithAPointIsASingleAndComesBack) {
+  std::mt19937_64 random(5);
+  Record record, again;
+  record.at = When::at(1);
+  record.op = "go";
+  for (int n = 0; n < 2000; ++n) {
+    const auto bits = static_cast<std::uint32_t>(random());
+    record.keys = {{"a", single(bits)}, {"b", single(bits & 0x80000000)}};
+    ASSERT_TRUE(parse_record(to_text(record), "t", 1, again));
+    ASSERT_EQ(bits, static_cast<std::uint32_t>(again.key("a"))) << to_text(record);
+    ASSERT_EQ(to_text(record), to_text(again));
+  }
+  ASSERT_TRUE(parse_record("@0 go a=0.5 b=-1.0e-3", "t", 1, again));
+  EXPECT_EQ(0x3f000000, again.key("a"));
+  EXPECT_EQ("@0 go a=0.5 b=-0.001", to_text(again));
+  for (const char* wrong : {"@0 go a=1.x", "@0 go a=1.0e99", "@0 go a=.", "@1.0 go a=1"})
+    EXPECT_THROW(parse_record(wrong, "t", 1, again), UserError) << wrong;
+}
+
 TEST(HandWritten, OnlyTheBoundarysOperationsAndKeysAreAdmitted) {
   const Boundary boundary{"box.unit", {{"read", 1, 2, {"fn"}, true, false, {"wait"}}, {"go", 0, 0, {}, false, true, {}}}};
   const std::pair<const char*, const char*> cases[] = {
