@@ -239,6 +239,9 @@ bool WordEngine::touches_scratch_only(const Batch& batch, const Square& square) 
       case MacroKind::kPaintIndex:
         if ((unflagged >> op.field[1] & 1) == 0) return false;
         continue;
+      case MacroKind::kSignFirst:
+      case MacroKind::kSign:
+        return false;  // flags are kept as bits
     }
     if (op.field[0] >= 0) unflagged &= ~(1u << op.field[0]);
     if (op.field[1] >= 0) unflagged &= ~(1u << op.field[1]);
