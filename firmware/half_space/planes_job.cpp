@@ -17,7 +17,7 @@ class PlanesJob : public Job {
   PlanesJob(const scene::Scene& scene, lib::IgcPrograms programs, const ArraySite& site)
       : prepared_(prepare_planes(scene, site)), programs_(std::move(programs)), site_(site) {}
 
-  void run(HostPort& host) override { half_space::run(host, prepared_, programs_); }
+  void run(HostPort& host) override { half_space::run(host, prepared_, programs_, site_); }
 
   ErrorReport compare(const MachineView& machine) const override {
     DENDRO_CHECK(machine.width == prepared_.width && machine.height == prepared_.height, "the monitor shows {}x{}",
@@ -63,15 +63,16 @@ class PlanesJob : public Job {
 
   std::vector<std::pair<std::string, double>> facts() const override {
     std::size_t visible = 0, unbounded = 0, most_guard = 0;
-    for (const StreamHull& hull : prepared_.hulls) {
-      visible += hull.visible, unbounded += !hull.bounded;
-      for (const StreamPlane& plane : hull.planes)
-        if (plane.kind != PlaneKind::kEdgeOn) most_guard = std::max<std::size_t>(most_guard, plane.guard);
-    }
+    for (const StreamHull& hull : prepared_.hulls) visible += hull.visible, unbounded += !hull.bounded;
+    for (const TilePlanes& tile : prepared_.tiles)
+      for (const auto& [hull, planes] : tile.hulls)
+        for (const StreamPlane& plane : planes)
+          if (plane.kind != PlaneKind::kEdgeOn) most_guard = std::max<std::size_t>(most_guard, plane.guard);
     const auto count = [](auto n) { return static_cast<double>(n); };
     return {{"hulls", count(prepared_.hulls.size())},
             {"hulls.visible", count(visible)},
             {"hulls.unbounded", count(unbounded)},
+            {"tiles", count(prepared_.tiles.size())},
             {"planes.back", count(prepared_.planes(PlaneKind::kBack))},
             {"planes.edge_on", count(prepared_.planes(PlaneKind::kEdgeOn))},
             {"planes.front", count(prepared_.planes(PlaneKind::kFront))},

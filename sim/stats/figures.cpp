@@ -21,6 +21,19 @@ void add_phases(const RunObject& run, std::vector<std::pair<std::string, double>
 
 }  // namespace
 
+std::optional<std::pair<std::string, double>> busiest_unit(const RunObject& run) {
+  std::optional<std::pair<std::string, double>> busiest;
+  for (const UnitRow& unit : run.units) {
+    double cycles = 0, busy = 0;
+    for (const auto& [name, value] : unit.values) {
+      if (name == "cycles") cycles = static_cast<double>(value);
+      if (name == "busy") busy = static_cast<double>(value);
+    }
+    if (cycles > 0 && (!busiest || busy / cycles > busiest->second)) busiest = {unit.unit, busy / cycles};
+  }
+  return busiest;
+}
+
 std::vector<std::pair<std::string, double>> figures(const RunObject& run) {
   std::vector<std::pair<std::string, double>> figures = {
       {"cycles", static_cast<double>(run.cycles)},

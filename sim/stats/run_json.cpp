@@ -99,6 +99,8 @@ ErrorInfo error_from(const Json& in) {
 std::string to_json(const RunObject& run) {
   Json units = Json::object();
   for (const UnitRow& unit : run.units) units[unit.unit] = object_of(unit.values);
+  Json busiest;
+  if (const auto unit = busiest_unit(run)) busiest = {{"unit", unit->first}, {"busy", unit->second}};
   const Json out = {{"schema", 1},
                     {"command", "run"},
                     {"scene", run.scene},
@@ -116,6 +118,7 @@ std::string to_json(const RunObject& run) {
                     {"interval_notes", run.interval_notes},
                     {"phases", phases_json(run)},
                     {"units", units},
+                    {"busiest", busiest},
                     {"image",
                      {{"path", run.image.path},
                       {"width", run.image.width},

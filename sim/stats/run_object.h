@@ -84,6 +84,10 @@ struct RunObject {
 /// up to its cycles, phases that do not add up to the run, or more machine time than time.
 void check_sanity(const RunObject& run);
 
+/// The unit that was busy for the largest share of its cycles, and that share: the bottleneck, if there is one. Nothing for a
+/// run without time.
+std::optional<std::pair<std::string, double>> busiest_unit(const RunObject& run);
+
 /// The run object of the contract (schema 1).
 std::string to_json(const RunObject& run);
 

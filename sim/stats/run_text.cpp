@@ -51,6 +51,8 @@ std::string unit_lines(const RunObject& run) {
     }
     text += "\n";
   }
+  if (const auto unit = busiest_unit(run); unit && run.units.size() > 1)
+    text += fmt::format("    busiest: {}, {:.1f} %\n", unit->first, 100 * unit->second);
   return text.empty() ? text : "  units\n" + text;
 }
 

@@ -32,6 +32,10 @@ lib::ArraySite array_site(const config::ParameterSet& parameters) {
   site.height = static_cast<int>(integer_of(parameters, "array.height"));
   site.memory_bits = static_cast<int>(integer_of(parameters, "array.memory_bits"));
   site.ports = static_cast<int>(integer_of(parameters, "array.ports"));
+  if (parameters.find("renderers.count") == nullptr) return site;
+  site.renderers = static_cast<int>(integer_of(parameters, "renderers.count"));
+  site.frame_width = static_cast<int>(integer_of(parameters, "frame_buffer.width"));
+  site.frame_height = static_cast<int>(integer_of(parameters, "frame_buffer.height"));
   return site;
 }
 

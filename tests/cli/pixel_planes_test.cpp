@@ -40,7 +40,34 @@ TEST_F(PixelPlanes, AnIntervalNamesTheAssumptionsThatWidenIt) {
   EXPECT_GT(object["seconds_high"].get<double>(), object["seconds"].get<double>());
 }
 
+TEST_F(PixelPlanes, ALargePictureIsDrawnInTilesByRenderersAtOnce) {
+  std::int64_t last = INT64_MAX;
+  std::string digest;
+  for (const char* renderers : {"1", "4", "16"}) {
+    SCOPED_TRACE(renderers);
+    const Result run = dendro(std::string("run grove --machine pixel-planes:pxpl5 --set parameters.host.program_load_ms=0") +
+                              " --set parameters.renderers.count=" + renderers + " --out o --json o.json --quiet");
+    ASSERT_EQ(0, run.status) << run.err;
+    const json object = json::parse(read("o.json"));
+    EXPECT_EQ(0, object["error"]["wrong_pixels"]);
+    EXPECT_EQ(16, object["facts"]["tiles"]);
+    EXPECT_LT(object["cycles"].get<std::int64_t>(), last);
+    last = object["cycles"].get<std::int64_t>();
+    if (!digest.empty()) {
+      EXPECT_EQ(digest, object["image"]["sha256"].get<std::string>());
+    }
+    digest = object["image"]["sha256"].get<std::string>();
+    const std::string busiest = object["busiest"]["unit"];
+    EXPECT_EQ(0u, busiest.rfind(renderers == std::string("16") ? "pixel_planes.host" : "pixel_planes.controller", 0)) << busiest;
+    std::filesystem::remove_all(folder_ / "o");
+    std::filesystem::remove(folder_ / "o.json");
+  }
+}
+
 TEST_F(PixelPlanes, WhatDoesNotFitIsOneLine) {
+  expect_user_error("run grove --machine pixel-planes:pxpl5 --set image.width=1300", "image.width: 1300 is more than the 1280 pixels of the frame buffer");
+  expect_user_error("run grove --machine pixel-planes:pxpl5 --set parameters.frame_buffer.width=1000", "frame_buffer.width: must be whole tiles, 128 pixels each");
+  expect_user_error("run grove --machine pixel-planes --set parameters.renderers.count=2", "renderers.count: the machine has no such parameter");
   const std::string run = "run icosahedron --machine pixel-planes --set ";
   expect_user_error(run + "half_space.depth_bits=17", "half_space.depth_bits: 3 registers of 17 bits and 24 further bits are 75 of a pixel; the memory has 72");
   expect_user_error(run + "half_space.variant=scratch", "half_space.variant: the scratch copy needs a memory with two ports");

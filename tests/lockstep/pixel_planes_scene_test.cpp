@@ -15,11 +15,11 @@ using Settings = std::vector<std::string>;
 
 /// All three levels draw the scene; all bits of all pixels, and at the two with time all clocks, must be
 /// equal.
-void expect_levels_equal(const std::string& scene, const Settings& settings) {
+void expect_levels_equal(const std::string& scene, const Settings& settings, const std::string& machine_name = "pixel-planes") {
   const study::Catalogue all{{pixel_planes_type()}, study::algorithms(), SHARE};
   study::RunArguments arguments;
   arguments.scene = scene;
-  arguments.machine = "pixel-planes";
+  arguments.machine = machine_name;
   arguments.settings = settings;
   in_child(
       [&] {
@@ -72,6 +72,14 @@ TEST(PixelPlanesScenes, EveryVariantIsEqual) {
                              {quick, "parameters.array.ports=2", "parameters.array.memory_bits=96"}}) {
     SCOPED_TRACE(settings[1]);
     expect_levels_equal("icosahedron", settings);
+  }
+}
+
+TEST(PixelPlanesScenes, TiledPicturesAreEqualWhateverTheNumberOfRenderers) {
+  for (const char* renderers : {"16", "3", "1"}) {
+    SCOPED_TRACE(renderers);
+    expect_levels_equal("grove", {"parameters.host.program_load_ms=0.1", std::string("parameters.renderers.count=") + renderers},
+                        "pixel-planes:pxpl5");
   }
 }
 

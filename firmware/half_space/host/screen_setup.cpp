@@ -30,6 +30,10 @@ void check_picture(const scene::Scene& scene) {
       throw UserError(
           at.file, at.line, key,
           fmt::format("{} is outside the allowed 1..{} pixels of a 24-bit frame", side, kLargestSide));
+  check_objects(scene);
+}
+
+void check_objects(const scene::Scene& scene) {
   if (scene.objects.empty()) throw UserError(scene.file, 0, "object", "the scene has no object");
   scene::check_one_light(scene, "half_space");
 }

@@ -36,6 +36,9 @@ struct DepthMap {
 /// Throws UserError for a picture larger than the frame no object, or more than one light.
 void check_picture(const scene::Scene& scene);
 
+/// Throws UserError for no object, or more than one light.
+void check_objects(const scene::Scene& scene);
+
 /// Flops of finding the corners of N planes by cutting the polyhedron with one plane after another: every
 /// plane is compared with the at most 2k - 4 corners so far and makes at most k new ones.
 std::uint64_t corner_flops(std::size_t planes);

@@ -7,6 +7,6 @@ namespace dendro::half_space {
 
 /// What the host of a Pixel-Planes machine does: loads the micro-programs, clears, then streams the hulls one after
 /// another: back, edge-on and front planes, the test against the nearest depth, the colours.
-void run(HostPort& host, const PreparedPlanes& prepared, const lib::IgcPrograms& programs);
+void run(HostPort& host, const PreparedPlanes& prepared, const lib::IgcPrograms& programs, const lib::ArraySite& site);
 
 }  // namespace dendro::half_space

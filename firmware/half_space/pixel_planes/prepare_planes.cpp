@@ -64,8 +64,13 @@ class Preparation {
   Preparation(const scene::Scene& scene, const ArraySite& site)
       : scene_(scene),
         options_(scene.options),
-        view_((check_picture(scene), scene::parallel_view(scene.camera, scene.image))),
-        site_(site) {}
+        view_((check_objects(scene), scene::parallel_view(scene.camera, scene.image))),
+        site_(site) {
+    // The whole picture decides how a plane is drawn, so that no two tiles do it in two ways.
+    whole_ = site;
+    if (!site.draws_tiles()) return;
+    whole_.width = whole_tiles(scene.image.width, site.width), whole_.height = whole_tiles(scene.image.height, site.height);
+  }
 
   PreparedPlanes make() {
     lib::check_picture_fits(scene_.image, site_);
@@ -78,6 +83,7 @@ class Preparation {
     read_shading();
     const DepthMap depth = map_depth_of_scene();
     for (std::size_t i = 0; i < objects_.size(); ++i) add_hull(objects_[i], extents_[i], depth);
+    add_tiles();
     check_index();
     skip_options_of_others();
     options_.finish();
@@ -85,6 +91,25 @@ class Preparation {
   }
 
  private:
+  static int whole_tiles(int side, int tile) { return (side + tile - 1) / tile * tile; }
+
+  void add_tiles() {
+    for (const lib::Tile& tile : lib::tiles_of(result_.width, result_.height, site_)) {
+      TilePlanes work{tile, {}};
+      for (std::size_t h = 0; h < result_.hulls.size(); ++h) {
+        const StreamHull& hull = result_.hulls[h];
+        const Box& box = hull.box;
+        if (!hull.visible || (site_.draws_tiles() && !tile.meets(box.x0, box.y0, box.x1, box.y1, site_))) continue;
+        std::vector<StreamPlane> planes = hull.planes;
+        if (site_.draws_tiles())
+          for (StreamPlane& plane : planes)
+            plane = plane_in_tile(plane, hull.screen[plane.screen], tile, site_, result_.layout, least_guard_);
+        work.hulls.emplace_back(h, std::move(planes));
+      }
+      result_.tiles.push_back(std::move(work));
+    }
+  }
+
   /// ASSUMED DEV-082
   void read_streams() {
     const int usual = std::max(log2_of(site_.width), log2_of(site_.height)) + 1;
@@ -167,12 +192,13 @@ class Preparation {
   static int order_of(PlaneKind kind) { return kind == PlaneKind::kBack ? 0 : kind == PlaneKind::kEdgeOn ? 1 : 2; }
 
   void add_plane(StreamHull& hull, std::size_t i, const glm::dvec3& normal) {
-    StreamPlane plane = make_stream_plane(hull.screen[i], site_, result_.layout, fraction_, least_guard_, edge_fraction_,
+    StreamPlane plane = make_stream_plane(hull.screen[i], whole_, result_.layout, fraction_, least_guard_, edge_fraction_,
                                           wheres_[result_.hulls.size()]);
     if (plane.kind == PlaneKind::kFront) {
       plane.face = static_cast<int>(result_.faces.size());
       result_.faces.push_back(to_rgb(colour_, ambient_ + diffuse_ * std::max(0.0, glm::dot(normal, light_))));
     }
+    plane.screen = i;
     hull.planes.push_back(plane);
   }
 
@@ -202,7 +228,7 @@ class Preparation {
   const scene::Scene& scene_;
   scene::Options options_;
   scene::Affine view_;
-  ArraySite site_;
+  ArraySite site_, whole_;  ///< of the machine, and one as large as the picture
   PreparedPlanes result_;
   std::vector<ObjectPlanes> objects_;
   std::vector<Extent> extents_;
@@ -273,6 +299,23 @@ StreamPlane make_stream_plane(const ScreenPlane& plane, const ArraySite& site, c
   const double middle = (std::ldexp(1.0, static_cast<int>(layout.depth_bits)) - 1) / 2;
   StreamPlane out = edge_on(plane, middle, site, edge_fraction);
   check_finite(out.expression, where);
+  return out;
+}
+
+StreamPlane plane_in_tile(const StreamPlane& whole, const ScreenPlane& screen, const lib::Tile& tile, const ArraySite& site,
+                          const PixelLayout& layout, unsigned least_guard) {
+  ScreenPlane moved = screen;
+  moved.d += screen.a * tile.x0 + screen.b * tile.y0;
+  StreamPlane out = whole;
+  if (whole.kind == PlaneKind::kEdgeOn) {
+    const double middle = (std::ldexp(1.0, static_cast<int>(layout.depth_bits)) - 1) / 2;
+    out = edge_on(moved, middle, site, whole.fraction);
+    out.face = whole.face, out.screen = whole.screen;
+    return out;
+  }
+  out.expression.c = static_cast<float>(-moved.d / moved.c);
+  const Range range = over_array(out.expression, site);
+  out.guard = std::max(least_guard, guard_for(range.low, range.high, layout.depth_bits));
   return out;
 }
 

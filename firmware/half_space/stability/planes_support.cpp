@@ -33,9 +33,10 @@ Field PlanesRig::draw(const std::vector<StreamPlane>& planes, unsigned low) cons
   prepared.faces = {Rgb{255, 255, 255}};
   prepared.hulls.emplace_back();
   prepared.hulls[0].planes = planes;
+  prepared.tiles = {{lib::Tile{}, {{0, planes}}}};
   Field field;
   const lib::IgcPrograms programs = rig_->igc_programs({"firmware/half_space/pixel_planes/half_space.igc"});
-  rig_->run([&](HostPort& host) { half_space::run(host, prepared, programs); },
+  rig_->run([&](HostPort& host) { half_space::run(host, prepared, programs, site_); },
             [&](const MachineView& machine) {
               for (std::uint32_t pixel = 0; pixel < kSide * kSide; ++pixel)
                 field.push_back(machine.peek(pixel, low) & most());

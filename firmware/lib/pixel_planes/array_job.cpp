@@ -8,13 +8,19 @@
 #include "sim/base/error.h"
 
 namespace dendro::lib {
+namespace {
+
+constexpr std::uint32_t kFramePixels = 1u << 31;  // where the machine shows its frame store to a debugger
+
+}  // namespace
 
 void check_picture_fits(const scene::Image& image, const ArraySite& site) {
-  for (const auto& [key, side, most] :
-       {std::tuple("image.width", image.width, site.width), {"image.height", image.height, site.height}})
+  const bool tiles = site.draws_tiles();
+  for (const auto& [key, side, most] : {std::tuple("image.width", image.width, tiles ? site.frame_width : site.width),
+                                        {"image.height", image.height, tiles ? site.frame_height : site.height}})
     if (side > most)
       throw UserError(image.where.file, image.where.line, key,
-                      fmt::format("{} is more than the {} pixels of the array", side, most));
+                      fmt::format("{} is more than the {} pixels of the {}", side, most, tiles ? "frame buffer" : "array"));
 }
 
 unsigned signed_bits(std::int64_t a, std::int64_t b, std::int64_t c, int width, int height) {
@@ -35,11 +41,12 @@ FirmwareImage firmware_image(const IgcPrograms& programs) {
 }
 
 std::vector<std::uint32_t> pixel_field(const MachineView& machine, const ArraySite& site, unsigned low, unsigned bits) {
-  const std::uint32_t mask = (1u << bits) - 1;
+  const std::uint32_t mask = (1u << bits) - 1, first = site.draws_tiles() ? kFramePixels : 0;
+  const int width = site.draws_tiles() ? site.frame_width : site.width;
   std::vector<std::uint32_t> values;
   for (int y = 0; y < machine.height; ++y)
     for (int x = 0; x < machine.width; ++x)
-      values.push_back(machine.peek(static_cast<std::uint32_t>(y * site.width + x), low) & mask);
+      values.push_back(machine.peek(first + static_cast<std::uint32_t>(y * width + x), low) & mask);
   return values;
 }
 

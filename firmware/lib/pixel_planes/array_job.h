@@ -15,9 +15,13 @@ struct ArraySite {
   int width = 512, height = 512;  ///< pixels
   int memory_bits = 72;
   int ports = 1;
+  int renderers = 1;
+  int frame_width = 0, frame_height = 0;  ///< pixels of the frame buffer; 0: the array itself is shown
+
+  bool draws_tiles() const { return frame_width > 0; }
 };
 
-/// Throws UserError for a picture that is larger than the array.
+/// Throws UserError for a picture that is larger than the array, or the frame buffer of a machine that draws in tiles.
 void check_picture_fits(const scene::Image& image, const ArraySite& site);
 
 /// Bits, sign included, that hold a·x + b·y + c at every pixel of an array.

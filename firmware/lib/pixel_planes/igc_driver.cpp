@@ -7,8 +7,8 @@
 namespace dendro::lib {
 namespace {
 
-constexpr std::uint32_t kControlStore = 0x0000, kFifo = 0x1000, kVideoBase = 0x1002, kVideoSize = 0x1003;
-constexpr std::uint32_t kExpression = 1u << 22, kConstant = 1u << 23, kLongConstant = 1u << 24, kRegister = 1u << 31;
+constexpr std::uint32_t kControlStore = 0x0000, kFifo = 0x1000, kVideoBase = 0x1002, kVideoSize = 0x1003, kSelect = 0x1004;
+constexpr std::uint32_t kExpression = 1u << 22, kConstant = 1u << 23, kLongConstant = 1u << 24, kCopy = 1u << 30, kRegister = 1u << 31;
 
 std::uint32_t bits_of(float value) {
   std::uint32_t bits = 0;
@@ -44,6 +44,13 @@ void IgcDriver::load() {
 void IgcDriver::show(unsigned colour_low, int width, int height) {
   host_.write(kVideoBase, colour_low, 0);
   host_.write(kVideoSize, static_cast<std::uint32_t>(width) | static_cast<std::uint32_t>(height) << 16, 0);
+}
+
+void IgcDriver::select(std::size_t number) { host_.write(kSelect, static_cast<std::uint32_t>(number), 0); }
+
+void IgcDriver::copy_tile(int column, int row) {
+  const std::uint32_t words[] = {kCopy, static_cast<std::uint32_t>(column) | static_cast<std::uint32_t>(row) << 16};
+  host_.dma_to(kFifo, words, 2, 0, 0);
 }
 
 void IgcDriver::set_register(const std::string& name, unsigned value) {

@@ -40,6 +40,10 @@ class IgcDriver {
   /// Reads the programs from a disk and writes the control store.
   void load();
   void show(unsigned colour_low, int width, int height);
+  /// What is written from here on goes to renderer `number`.
+  void select(std::size_t number);
+  /// The picture's tile goes to the frame store when the commands before are done.
+  void copy_tile(int column, int row);
   void set_register(const std::string& name, unsigned value);
   void run(const std::string& program, std::optional<std::uint64_t> constant = std::nullopt);
   void run(const std::string& program, const Expression& expression, unsigned fraction, unsigned guard,
