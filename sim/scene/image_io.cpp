@@ -70,12 +70,15 @@ void write_animation(const std::string& path, const std::vector<std::string>& pi
   throw UserError(path, 0, {}, "cannot be written: " + out->geterror());
 }
 
-RgbImage read_rgb(const std::string& path) {
+RgbImage read_rgb(const std::string& path) { return read_frame(path, 0); }
+
+RgbImage read_frame(const std::string& path, int number) {
   const std::unique_ptr<OIIO::ImageInput> in = open_image(path);
+  if (!in->seek_subimage(number, 0)) throw UserError(path, 0, {}, "has no picture " + std::to_string(number));
   const OIIO::ImageSpec spec = in->spec();
   const int channels = spec.nchannels;
   std::vector<std::uint8_t> raw(std::size_t(spec.width) * spec.height * channels);
-  if (!in->read_image(0, 0, 0, channels, OIIO::TypeDesc::UINT8, raw.data()))
+  if (!in->read_image(number, 0, 0, channels, OIIO::TypeDesc::UINT8, raw.data()))
     throw UserError(path, 0, {}, "cannot be read: " + in->geterror());
   RgbImage image{spec.width, spec.height,
                  std::vector<std::uint8_t>(std::size_t(spec.width) * spec.height * 3)};

@@ -27,6 +27,9 @@ void write_animation(const std::string& path, const std::vector<std::string>& pi
 /// Reads the first three channels of a picture file as 8-bit RGB; one channel becomes grey. Throws UserError.
 RgbImage read_rgb(const std::string& path);
 
+/// The same of picture `number`, from 0, of an animation.
+RgbImage read_frame(const std::string& path, int number);
+
 /// Writes a 32-bit float EXR with the channels in the given order. Throws UserError; then nothing is left of
 /// it.
 void write_exr(const std::string& path, int width, int height, const std::vector<FloatChannel>& channels);

@@ -79,6 +79,31 @@ TEST(Picture, ThatCannotBeReadIsAUserError) {
   std::filesystem::remove(path);
 }
 
+TEST(Animation, HasAllPicturesInTheirOrderAndRunsForever) {
+  std::vector<std::string> pictures;
+  for (const int shade : {0, 120, 255}) {
+    pictures.push_back(temporary("shade" + std::to_string(shade) + ".png"));
+    write_png(pictures.back(), {8, 6, std::vector<std::uint8_t>(8 * 6 * 3, static_cast<std::uint8_t>(shade))});
+  }
+  const std::string path = temporary("a.gif");
+  write_animation(path, pictures, 10);
+  std::ifstream in(path, std::ios::binary);
+  const std::string bytes(std::istreambuf_iterator<char>(in), {});
+  std::vector<int> delays;
+  for (std::size_t at = bytes.find("\x21\xf9\x04"); at != std::string::npos; at = bytes.find("\x21\xf9\x04", at + 1))
+    delays.push_back(static_cast<unsigned char>(bytes[at + 4]));
+  EXPECT_EQ(delays, (std::vector<int>{10, 10, 10}));
+  EXPECT_NE(bytes.find("NETSCAPE2.0"), std::string::npos);
+  for (std::size_t i = 0; i < pictures.size(); ++i) {
+    const RgbImage frame = read_frame(path, static_cast<int>(i)), wanted = read_rgb(pictures[i]);
+    ASSERT_EQ(frame.rgb.size(), wanted.rgb.size());
+    for (std::size_t k = 0; k < frame.rgb.size(); ++k) EXPECT_NEAR(frame.rgb[k], wanted.rgb[k], 8);
+  }
+  EXPECT_THROW(write_animation(temporary("none") + "/deep/a.gif", pictures, 10), UserError);
+  for (const std::string& picture : pictures) std::filesystem::remove(picture);
+  std::filesystem::remove(path);
+}
+
 TEST(ImageDigest, IsThatOfTheRgbBytes) {
   const RgbImage image{1, 1, {'a', 'b', 'c'}};
   EXPECT_EQ(image_digest(image), "ba7816bf8f01cfea414140de5dae2223b00361a396177a9cb410ff61f20015ad");

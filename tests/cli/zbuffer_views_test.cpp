@@ -1,0 +1,139 @@
+#include "tests/cli/cli.h"
+
+namespace dendro::cli {
+namespace {
+
+using json = nlohmann::json;
+
+class ZbufferViews : public CommandTest {
+ protected:
+  /// A scene of a small tree; `options` are lines of its own table.
+  std::string scene(const std::string& options, const std::string& object = "tree = \"magnolia\"\nage = 8\nleaf_rows = 3\n",
+                    const std::string& camera = "height = 3\nposition = [3, 3, 9]\n") const {
+    return "algorithm = \"zbuffer_views\"\nmachine = \"sgi-4d35\"\nlevel = \"function\"\n"
+           "[image]\nwidth = 80\nheight = 120\n[camera]\n" + camera + "target = [0, 1, 0]\n"
+           "[[light]]\ndirection = [-1, -2, -1]\nambient = 0.3\n[[object]]\n" + object +
+           "[zbuffer_views]\nbands = 3\nview_width = 100\nview_height = 160\n" + options;
+  }
+
+  json run(const std::string& arguments) const {
+    const Result result = dendro("run " + arguments + " --json o.json --quiet");
+    EXPECT_EQ(0, result.status) << result.err;
+    return result.status == 0 ? json::parse(read("o.json")) : json();
+  }
+
+  static std::vector<std::string> phases(const json& object) {
+    std::vector<std::string> names;
+    for (const json& phase : object["phases"]) names.push_back(phase["name"]);
+    return names;
+  }
+};
+
+TEST_F(ZbufferViews, PicturesAreThoseOfTheReferenceButForRounding) {
+  const char* const options[] = {"", "shadows = true\nlayers = 3\n", "rule = \"peel\"\nleaf_side = \"early\"\n",
+                                 "full_product = true\nskip_empty = true\nlayers = 1\n", "compiler = \"O1\"\n",
+                                 "compiler = \"fcr31\"\nshadows = true\n", "mapped = false\n"};
+  for (const std::string projection : {"height = 3\n", "projection = \"perspective\"\nfov_y = 20\n"})
+    for (const char* option : options) {
+      SCOPED_TRACE(projection + option);
+      write("s.toml", scene(option, "tree = \"magnolia\"\nage = 8\nleaf_rows = 3\n", projection + "position = [3, 3, 9]\n"));
+      const json object = run("s.toml --out o");
+      const json& error = object["error"];
+      EXPECT_GT(error["covered_pixels"].get<int>(), 1500);
+      // Single precision moves some samples over a pixel's border, and inserted layers are not the canonical ones.
+      EXPECT_LT(error["wrong_pixels"].get<double>(), error["covered_pixels"].get<double>() / 100);
+      EXPECT_GT(error["psnr_db"].get<double>(), 28);
+    }
+}
+
+TEST_F(ZbufferViews, PolygonsAreThoseOfTheReference) {
+  write("s.toml", scene("draw = \"polygons\"\n"));
+  const json object = run("s.toml --out o");
+  EXPECT_EQ("zbuffer_views_polygons.start", phases(object).front());
+  EXPECT_LT(object["error"]["wrong_pixels"].get<double>(), object["error"]["covered_pixels"].get<double>() / 100);
+}
+
+TEST_F(ZbufferViews, AFirStandsThereAndItsPhasesAreTold) {
+  write("s.toml", scene("precompute = \"timed\"\n", "tree = \"fir\"\nage = 6\n"));
+  const json object = run("s.toml --out o");
+  EXPECT_LT(object["error"]["wrong_pixels"].get<double>(), object["error"]["covered_pixels"].get<double>() / 25);
+  const std::vector<std::string> names = phases(object);
+  for (const char* wanted : {"zbuffer_views_precompute.scan", "zbuffer_views_reconstruct.reproject_camera",
+                             "zbuffer_views_reconstruct.shade"})
+    EXPECT_TRUE(std::count(names.begin(), names.end(), wanted)) << wanted;
+}
+
+TEST_F(ZbufferViews, AMeshIsDrawnWithItsGroupsAsParts) {
+  write("m.obj", std::string("o trunk\nv 0 0 0\nv 0.2 0 0\nv 0.1 1 0\nf 1 2 3\no leaves\nv -1 1 0\nv 1 1 0\nv 0 2 0.3\nf 4 5 6\n"));
+  write("s.toml", scene("", "mesh = \"m.obj\"\ngroups = { trunk = \"trunk*\", leaf = \"leaves\" }\n"));
+  const json object = run("s.toml --out o");
+  const json& facts = object["facts"];
+  EXPECT_EQ(1, facts["triangles.trunk"]);
+  EXPECT_EQ(1, facts["triangles.leaf"]);
+  EXPECT_EQ(0, facts["triangles.branch"]);
+  EXPECT_LT(object["error"]["wrong_pixels"].get<double>(), 40);
+  EXPECT_GT(object["error"]["covered_pixels"].get<double>(), 500);
+}
+
+TEST_F(ZbufferViews, SavedViewsGiveTheSamePictureAndAResolvedRunRepeats) {
+  write("s.toml", scene("save_views = true\n"));
+  const json made = run("s.toml --out a");
+  write("t.toml", scene("views = \"a/views.zbv\"\n"));
+  const json loaded = run("t.toml --out b");
+  EXPECT_EQ(made["image"]["sha256"], loaded["image"]["sha256"]);
+  EXPECT_EQ("zbuffer_views_precompute (untimed)", phases(made).front());
+  EXPECT_EQ("zbuffer_views_reconstruct.start", phases(loaded).front());
+  const json again = run("b/resolved.toml --out c");
+  EXPECT_EQ(made["image"]["sha256"], again["image"]["sha256"]);
+}
+
+TEST_F(ZbufferViews, SavedViewsThatDoNotSuitAreOneLine) {
+  write("s.toml", scene("save_views = true\n"));
+  run("s.toml --out a");
+  const std::string views = read("a/views.zbv");
+  write("t.toml", scene("views = \"v.zbv\"\n"));
+  expect_user_error("run t.toml", "v.zbv: cannot be read");
+  write("v.zbv", views.substr(0, views.size() - 1000));
+  expect_user_error("run t.toml", "v.zbv: is truncated or damaged");
+  std::string other = views;
+  other[7] = 9;
+  write("v.zbv", other);
+  expect_user_error("run t.toml", "v.zbv: has version 9, this dendro reads 1");
+  write("v.zbv", "no views at all, but some text that is long enough for a head");
+  expect_user_error("run t.toml", "v.zbv: is no file of stored views");
+  write("v.zbv", views);
+  expect_user_error("run t.toml --set object.0.seed=7", "v.zbv: holds views of another tree than the scene's");
+  expect_user_error("run t.toml --set zbuffer_views.layers=3", "v.zbv: layers: its views have 2, the scene wants 3");
+  expect_user_error("run t.toml --set zbuffer_views.precompute=timed", "zbuffer_views.precompute: has nothing to time");
+}
+
+TEST_F(ZbufferViews, WhatCannotBeDrawnIsOneLine) {
+  write("s.toml", scene(""));
+  expect_user_error("run s.toml --set zbuffer_views.layers=0", "zbuffer_views.layers: ");
+  expect_user_error("run s.toml --set zbuffer_views.threshold=-0.1", "zbuffer_views.threshold: ");
+  expect_user_error("run s.toml --set zbuffer_views.layer=1", "did you mean `layers`?");
+  expect_user_error("run s.toml --set object.0.age=90", "object.age: ");
+  expect_user_error("run s.toml --set image.width=2000", "image: a picture has at most 1024x1024 pixels");
+  write("p.toml", scene("", "tree = \"fir\"\n", "projection = \"perspective\"\nfov_y = 40\nposition = [0.1, 1.2, 0.1]\n"));
+  expect_user_error("run p.toml", "camera.position: is inside the tree");
+  write("e.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\n");
+  write("m.toml", scene("", "mesh = \"e.obj\"\n"));
+  expect_user_error("run m.toml", "e.obj");
+  expect_user_error("run s.toml --machine rds3000", "rds3000 has no firmware for zbuffer_views");
+}
+
+TEST_F(ZbufferViews, ASequenceIsNumberedPicturesAndAnAnimation) {
+  write("s.toml", scene("frames = 3\nturn = 90\n"));
+  const json object = run("s.toml --out o");
+  std::vector<std::string> frames;
+  for (const std::string& name : names())
+    if (name.compare(0, 9, "o/frames/") == 0) frames.push_back(name.substr(9));
+  EXPECT_EQ(frames, (std::vector<std::string>{"0000.png", "0001.png", "0002.png"}));
+  EXPECT_EQ(read("o/frames/0000.png"), read("o/image.png"));
+  EXPECT_NE(read("o/frames/0000.png"), read("o/frames/0001.png"));
+  EXPECT_EQ("GIF89a", read("o/animation.gif").substr(0, 6));
+  EXPECT_EQ(3, object["facts"]["frames"]);
+}
+
+}  // namespace
+}  // namespace dendro::cli
