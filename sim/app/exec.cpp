@@ -4,6 +4,7 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <memory>
 
@@ -48,6 +49,10 @@ void print_run(const study::ExecOutput& output) {
   fmt::print(stderr, "{}:{} level {}: {} instructions in {}, {}, exit code {}\n{}", run.machine, run.preset,
              run.level, stats::grouped(static_cast<std::int64_t>(run.instructions)),
              stats::readable_seconds(run.host.seconds), time, output.exit_code, study::cause_text(run));
+  if (run.seconds_low)
+    fmt::print(stderr, "99.7 % interval of the sampling: {} to {} cycles\n",
+               stats::grouped(std::llround(*run.seconds_low * run.clock_hz)),
+               stats::grouped(std::llround(*run.seconds_high * run.clock_hz)));
   for (const stats::PhaseRow& phase : run.phases)
     fmt::print(stderr, "phase {}: {} cycles\n", phase.name, stats::grouped(phase.cycles));
   if (!output.profile.empty()) fmt::print(stderr, "{}", study::profile_text(output.profile, run.cycles));

@@ -19,6 +19,10 @@ std::uint32_t programs() {
 /// Every third run is cut off somewhere.
 std::uint64_t limit_of(std::uint32_t seed) { return seed % 3 == 0 ? 1 + seed * 7919 % 900 : kLimit; }
 
+/// The limit ended the run before a word of a handler, rfe perhaps: how a fetch behind it would be translated is not
+/// defined.
+bool undefined_end(const Ran& ran) { return !ran.stopped && ran.state.pc < kCode - 0x1000 && ran.state.pc >= 0x80000000; }
+
 Ran unlogged(std::uint32_t seed) {
   const CornerProgram program = corner_program(seed);
   return run_unlogged(corner_spec(seed), image_of(program.memory, program.start), limit_of(seed));
@@ -27,6 +31,7 @@ Ran unlogged(std::uint32_t seed) {
 void compare(const Spec& spec, const Memory& memory, std::uint32_t start, std::uint32_t seed) {
   const std::uint64_t limit = limit_of(seed);
   const Ran clocked = run_words(Level::kClocked, spec, memory, start, limit);
+  if (undefined_end(clocked)) return;
   ASSERT_EQ("", difference(clocked, run_words(Level::kCycle, spec, memory, start, limit))) << "seed " << seed;
   ASSERT_EQ("", difference(clocked, run_unlogged(spec, image_of(memory, start), limit)))
       << "without a log, seed " << seed;

@@ -2,6 +2,7 @@
 
 #include "models/machines/sgi_4d35/clocked.h"
 #include "models/machines/sgi_4d35/cycle.h"
+#include "models/machines/sgi_4d35/estimate.h"
 #include "models/machines/sgi_4d35/function.h"
 #include "sim/base/error.h"
 
@@ -108,7 +109,7 @@ MachineType sgi_4d35_type() {
   type.name = "sgi-4d35";
   type.summary = "SGI 4D/35: R3000A and R3010A at 36 MHz, software rendering (MO95); programs by `exec`";
   type.presets = {"4d35"};
-  type.levels = {Level::kFunction, Level::kCycle, Level::kClocked};
+  type.levels = {Level::kFunction, Level::kEstimate, Level::kCycle, Level::kClocked};
   type.folder = "models/machines/sgi_4d35";
   type.make = [](const config::ParameterSet&, Level, const MachineOptions&) -> std::unique_ptr<Machine> {
     throw UserError("", 0, "sgi-4d35",
@@ -119,6 +120,7 @@ MachineType sgi_4d35_type() {
                  service_block::Services& services, std::uint64_t limit, const MachineOptions& options) {
     const Spec spec = resolve(parameters);
     if (level == Level::kFunction) return run_function(spec, image, services, limit);
+    if (level == Level::kEstimate) return run_estimate(spec, image, services, limit);
     RunOptions run;
     run.machine = options;
     return level == Level::kCycle ? run_cycle(spec, image, services, limit, run)
