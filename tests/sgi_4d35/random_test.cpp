@@ -100,7 +100,7 @@ INSTANTIATE_TEST_SUITE_P(Levels, Sgi4d35Random, ::testing::Values(Level::kCycle,
 
 TEST_P(Sgi4d35Random, ProgramsLeaveWhatTheCoreWithoutTimeLeaves) { compare(1, 100, 300, 3); }
 
-TEST_P(Sgi4d35Random, LongProgramsLeaveWhatTheCoreWithoutTimeLeaves) { compare(1000, 2000, 600, 4); }
+TEST_P(Sgi4d35Random, LongProgramsLeaveWhatTheCoreWithoutTimeLeaves) { compare(1000, 800, 600, 4); }
 
 TEST_P(Sgi4d35Random, AStoreIntoTheNextWordsIsSeen) {
   for (const unsigned distance : {1u, 2u, 3u, 4u, 12u}) {
