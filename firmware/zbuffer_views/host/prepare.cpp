@@ -34,7 +34,8 @@ Rgb read_colour(scene::Options& options, const char* key, const std::vector<doub
 std::array<Rgb, 4> read_colours(scene::Options& options, bool magnolia) {
   const std::vector<double> leaf = magnolia ? std::vector{0.36, 0.56, 0.20} : std::vector{0.20, 0.40, 0.22};
   const Rgb top = read_colour(options, "leaf_colour", leaf);
-  const Rgb below = magnolia || options.has("leaf_below") ? read_colour(options, "leaf_below", {0.68, 0.76, 0.60}) : top;
+  const Rgb below = read_colour(options, "leaf_below",
+                                magnolia ? std::vector{0.68, 0.76, 0.60} : std::vector{top[0] / 255.0, top[1] / 255.0, top[2] / 255.0});
   return {read_colour(options, "trunk_colour", {0.45, 0.38, 0.32}), read_colour(options, "branch_colour", {0.40, 0.31, 0.24}), top,
           below};
 }

@@ -5,6 +5,7 @@
 
 #include "models/machines/pixel_planes/pixel_planes.h"
 #include "models/machines/rds3000/rds3000.h"
+#include "models/machines/sgi_4d35/sgi_4d35.h"
 #include "sim/study/algorithms.h"
 #include "tests/core/study/fake_machine.h"
 
@@ -36,7 +37,7 @@ std::set<std::string> keys_read(const Algorithm& algorithm, const MachineType& t
   // One object, two, and one with a trunk may be drawn by different programs with keys of their own.
   for (const auto& [objects, trunk] : {std::pair(1, false), {2, false}, {1, true}}) {
     std::string text = "algorithm = \"" + algorithm.name +
-                       "\"\n[image]\nwidth = 8\nheight = 8\n[camera]\nheight = 4\nposition = [0, 0, 4]\n";
+                       "\"\n[image]\nwidth = 64\nheight = 64\n[camera]\nheight = 4\nposition = [0, 0, 4]\n";
     for (int i = 0; i < objects; ++i) text += "[[object]]\nmesh = \"" + mesh + "\"\n";
     if (trunk) text += "trunk = \"cone\"\n";
     SceneFile file = load_scene(write(text), {}, all);
@@ -47,6 +48,8 @@ std::set<std::string> keys_read(const Algorithm& algorithm, const MachineType& t
     } catch (const UserError& error) {
       message = error.message();
     }
+    // An algorithm may refuse a trunk; its other two scenes say what it reads.
+    if (trunk && message.find("is not for this algorithm") != std::string::npos) continue;
     for (const std::string& key : keys_in(message)) read.insert(key);
   }
   return read;
@@ -54,7 +57,7 @@ std::set<std::string> keys_read(const Algorithm& algorithm, const MachineType& t
 
 TEST_F(OptionKeys, OfEveryAlgorithmAreThoseThatItsJobsRead) {
   const std::string mesh = write("m.obj", kTetrahedron);
-  const Catalogue all{{rds3000::rds3000_type(), pixel_planes::pixel_planes_type()}, algorithms(), "/nowhere"};
+  const Catalogue all{{rds3000::rds3000_type(), pixel_planes::pixel_planes_type(), sgi_4d35::sgi_4d35_type()}, algorithms(), "/nowhere"};
   for (const Algorithm& algorithm : algorithms()) {
     std::set<std::string> read;
     for (const MachineType& type : all.machines)
