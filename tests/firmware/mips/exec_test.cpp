@@ -59,7 +59,7 @@ TEST(MipsPrograms, AnEndlessProgramEndsAtItsLimit) {
 
 TEST(MipsPrograms, TheJsonOfARunHasNoTimeAtFunction) {
   const std::string json = scratch() + "/run.json";
-  const Ran ran = run(model(elf("hello"), "", "--json " + json) + " </dev/null");
+  const Ran ran = run(model(elf("hello"), "", "--level function --json " + json) + " </dev/null");
   ASSERT_EQ(0, ran.status) << ran.errors;
   const std::string text = read_file(json);
   for (const char* part : {"\"machine\": \"sgi-4d35\"", "\"level\": \"function\"", "\"cycles\": null",
@@ -80,7 +80,7 @@ TEST(MipsPrograms, CommandsThatCannotDriveTheMachineSaySo) {
   const std::string dendro = DENDRO;
   for (const std::string& command :
        {dendro + " run icosahedron --machine sgi-4d35", dendro + " levels icosahedron --machine sgi-4d35",
-        model(elf("hello"), "", "--level cycle"), model(elf("hello"), "", "--dump 0"),
+        model(elf("hello"), "", "--dump 0"),
         dendro + " record --exec sgi-4d35 " + elf("hello") + " --boundary sgi_4d35.memory --out " +
             scratch() + "/t"}) {
     const Ran ran = run(command + " </dev/null");
