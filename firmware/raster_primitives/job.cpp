@@ -18,7 +18,7 @@ class PrimitivesJob : public Job {
   PrimitivesJob(const scene::Scene& scene, lib::IgcPrograms programs, const ArraySite& site)
       : prepared_(prepare(scene, site)), programs_(std::move(programs)), site_(site) {}
 
-  void run(HostPort& host) override { raster_primitives::run(host, prepared_, programs_); }
+  void run(HostPort& host) override { raster_primitives::run(host, prepared_, programs_, site_); }
 
   ErrorReport compare(const MachineView& machine) const override {
     DENDRO_CHECK(machine.width == prepared_.width && machine.height == prepared_.height, "the monitor shows {}x{}",
@@ -88,6 +88,7 @@ class PrimitivesJob : public Job {
             {"triangles.outside", count(prepared_.outside)},
             {"triangles.without_area", count(prepared_.without_area)},
             {"triangles.flat", count(prepared_.flat)},
+            {"tiles", count(prepared_.tiles.size())},
             {"depth_bits", count(prepared_.layout.depth_bits)},
             {"memory_bits_used", count(prepared_.layout.used())},
             {"shadows", count(prepared_.shadows.size())},

@@ -22,6 +22,24 @@ TEST_F(Primitives, ScenesRunAndAgreeWithTheReferenceExceptAtSilhouettes) {
   }
 }
 
+TEST_F(Primitives, AreDrawnInTilesAsInOneArray) {
+  for (const char* scene : {"teapot --set raster_primitives.patch_steps=2", "buckyball", "shadows --set raster_primitives.patch_steps=1"}) {
+    SCOPED_TRACE(scene);
+    json runs[2];
+    for (const bool tiled : {false, true}) {
+      const Result run = dendro(std::string("run ") + scene + (tiled ? " --machine pixel-planes:pxpl5" : "") + " --out o --json o.json --quiet");
+      ASSERT_EQ(0, run.status) << run.err;
+      runs[tiled] = json::parse(read("o.json"))["error"];
+      std::filesystem::remove_all(folder_ / "o");
+      std::filesystem::remove(folder_ / "o.json");
+    }
+    EXPECT_EQ(runs[0]["covered_pixels"], runs[1]["covered_pixels"]);
+    EXPECT_EQ(runs[0]["wrong_pixels"], runs[1]["wrong_pixels"]);  // edges are exact in both
+    EXPECT_NEAR(runs[0]["psnr_db"].get<double>(), runs[1]["psnr_db"].get<double>(), 0.5);
+    EXPECT_LE(runs[1]["inner_wrong_shadows"].get<double>(), 1);
+  }
+}
+
 TEST_F(Primitives, TakeTheSameClocksAndShowTheSameAtEveryLevelWithTime) {
   for (const char* scene : {"teapot --set raster_primitives.patch_steps=1", "buckyball",
                             "shadows --set raster_primitives.patch_steps=1"}) {

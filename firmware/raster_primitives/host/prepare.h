@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "firmware/lib/pixel_planes/array_job.h"
+#include "firmware/lib/pixel_planes/tiles.h"
 #include "firmware/raster_primitives/host/layout.h"
 #include "firmware/raster_primitives/host/shadow_setup.h"
 #include "firmware/raster_primitives/host/sphere_setup.h"
@@ -20,6 +21,14 @@ using lib::ArraySite;
 struct ScreenTriangle {
   std::array<ScreenVertex, 3> corners;
   std::size_t object = 0;
+};
+
+/// What is sent to the array that draws a tile, in its coordinates.
+struct TileDrawing {
+  lib::Tile tile;
+  std::vector<TriangleSetup> triangles;
+  std::vector<SphereSetup> spheres;
+  std::vector<ShadowSetup> shadows;
 };
 
 /// A scene ready to be drawn.
@@ -37,6 +46,7 @@ struct Prepared {
   std::vector<ShadowSetup> shadows;         ///< of the triangles that face the light, in the picture or not
   std::vector<std::array<glm::dvec3, 3>> casters;  ///< those triangles: pixels and units
   glm::dvec3 light{};                       ///< the way the light travels, in pixels and units
+  std::vector<TileDrawing> tiles;           ///< the array itself on a machine that does not draw in tiles
   std::uint64_t vertex_flops = 0;           ///< transforms, normals, shades
   std::size_t given = 0;                    ///< triangles of all objects
   std::size_t spheres_given = 0;
@@ -49,6 +59,11 @@ constexpr std::uint64_t kFlopsTransformVertex = 18 + 2;     // affine map to the
 constexpr std::uint64_t kFlopsRotateNormal = 15;
 constexpr std::uint64_t kFlopsShadeVertex = 5 + 4 + 3;      // n·L, to a shade, to three colours
 constexpr std::uint64_t kFlopsFacing = 5;                   // sign of the area on the screen
+
+// Of them, and of those of the set-ups, what comes anew in every tile: constants at its corner, guards.
+constexpr std::uint64_t kFlopsTileTriangle = 7 * 4 + kFlopsGuards;
+constexpr std::uint64_t kFlopsTileSphere = 2 + 2 + 5 + 3 * 4;
+constexpr std::uint64_t kFlopsTileShadow = 4 * (4 + 10);
 
 /// Throws UserError for what cannot be drawn.
 Prepared prepare(const scene::Scene& scene, const ArraySite& site);
