@@ -35,8 +35,8 @@ function(dendro_mips_objects out)
   set(${out} ${objects} PARENT_SCOPE)
 endfunction()
 
-# dendro_mips_program(TARGET FILES...): links FILES (sources, or objects that were compiled before) with firmware/lib/mips to mips/TARGET.elf (mapped, at 0x00400000) and
-# mips/TARGET-unmapped.elf (the same objects at 0x80400000) in the build tree.
+# dendro_mips_program(TARGET FILES...): links FILES (sources, or objects that were compiled before) with firmware/lib/mips to mips/TARGET.elf
+# (mapped, at 0x00400000) and mips/TARGET-unmapped.elf (the same objects at 0x80400000) in the build tree.
 function(dendro_mips_program target)
   set(sources ${ARGN})
   list(FILTER sources EXCLUDE REGEX "[.]o$")

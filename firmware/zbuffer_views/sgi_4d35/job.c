@@ -72,6 +72,13 @@ void check_pictures(const char* path, const struct job* job) {
   for (uint32_t i = 0; i < facts->frames; ++i) check_frame(path, i, job->frames + i);
 }
 
+uint32_t file_bytes(const char* path, size_t head, uint32_t count, size_t piece) {
+  const uint64_t bytes = head + (uint64_t)count * piece;
+  if (bytes > 0x7FFFFFFF)
+    fail(path, "asks for a file of %llu bytes, which end at 2 GB", (unsigned long long)bytes);
+  return (uint32_t)bytes;
+}
+
 void check_digest(const char* path, const struct zbv_head* head, const struct zbv_job* job) {
   if (memcmp(head->digest, job->head.digest, sizeof head->digest) != 0)
     fail(path, "is of another tree than the job's");

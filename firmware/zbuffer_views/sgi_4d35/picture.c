@@ -18,10 +18,11 @@ void write_picture(const struct picture* from, const struct output* to) {
   write_output(to, from->red, 4 * pixels);
 }
 
-void make_pictures_head(const struct zbv_job* job, struct zbv_pictures* head) {
+void make_pictures_head(const struct zbv_job* job, const char* job_path, struct zbv_pictures* head) {
   head->head = job->head;
   head->head.magic = kZbvPicturesMagic;
-  head->head.bytes = sizeof *head + job->frames * (sizeof(struct zbv_picture) + 8 * job->width * job->height);
+  head->head.bytes = file_bytes(job_path, sizeof *head, job->frames,
+                                sizeof(struct zbv_picture) + 8 * job->width * job->height);
   head->width = job->width;
   head->height = job->height;
   head->frames = job->frames;

@@ -191,7 +191,7 @@ int main(int argc, char** argv) {
   prepare(&work, argv);
   begin_phase(kZbvNormals);
   find_normals(&work);
-  make_pictures_head(&work.job.facts, &head);
+  make_pictures_head(&work.job.facts, argv[1], &head);
   const struct output to = open_output(argv[3], sizeof head);
   for (uint32_t i = 0; i < work.job.facts.frames; ++i) {
     begin_phase(kZbvClear);

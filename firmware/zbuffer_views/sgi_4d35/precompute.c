@@ -108,7 +108,8 @@ static void draw_view(struct work* work, const struct zbv_view* view, float pitc
     insert_triangles(&work->layers, work->corners, tree->triangles, attributes, triangles);
 }
 
-static void make_facts(const struct work* work, uint32_t views, float pitch, struct zbv_views* facts) {
+static void make_facts(const struct work* work, uint32_t views, float pitch, const char* job_path,
+                       struct zbv_views* facts) {
   const struct zbv_job* job = work->job;
   const struct zbv_tree* tree = &work->tree.facts;
   memset(facts, 0, sizeof *facts);
@@ -126,9 +127,9 @@ static void make_facts(const struct work* work, uint32_t views, float pitch, str
   facts->threshold = job->threshold;
   facts->radius = work->tree.radius;
   facts->half_height = work->tree.half_height;
-  facts->head.bytes = sizeof *facts + tree->colours * sizeof(struct zbv_colour) +
-                      views * sizeof(struct zbv_view) +
-                      views * job->layers * job->view_width * job->view_height * kZbvSampleBytes;
+  const size_t head = sizeof *facts + tree->colours * sizeof(struct zbv_colour);
+  const size_t planes = job->layers * job->view_width * job->view_height * kZbvSampleBytes;
+  facts->head.bytes = file_bytes(job_path, head, views, sizeof(struct zbv_view) + planes);
 }
 
 static void make_room(struct work* work, const char* job_path) {
@@ -169,7 +170,7 @@ int main(int argc, char** argv) {
   make_room(&work, argv[1]);
   begin_phase(kZbvNormals);
   describe_triangles(&work.tree, work.attributes);
-  make_facts(&work, count, pitch, &facts);
+  make_facts(&work, count, pitch, argv[1], &facts);
 
   const struct output to = open_output(argv[3], sizeof facts);
   write_output(&to, work.tree.colours, facts.colours * sizeof *work.tree.colours);

@@ -152,7 +152,7 @@ int main(int argc, char** argv) {
   begin_phase(kZbvRead);
   prepare(&work, argv);
   const struct zbv_job* job = &work.job.facts;
-  make_pictures_head(job, &head);
+  make_pictures_head(job, argv[1], &head);
   const struct output to = open_output(argv[3], sizeof head);
   for (uint32_t i = 0; i < job->frames; ++i) {
     const struct zbv_frame* frame = work.job.frames + i;

@@ -13,7 +13,7 @@ struct picture {
 
 void make_picture(struct picture* to, const struct zbv_job* job, const char* job_path);
 void write_picture(const struct picture* from, const struct output* to);
-void make_pictures_head(const struct zbv_job* job, struct zbv_pictures* head);
+void make_pictures_head(const struct zbv_job* job, const char* job_path, struct zbv_pictures* head);
 
 /* Sines and cosines of the bytes of normals. */
 struct angles {

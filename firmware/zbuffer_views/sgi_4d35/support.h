@@ -55,6 +55,8 @@ struct job {
 void load_job(const char* path, struct job* job);
 void check_build(const char* path, const struct zbv_job* job);
 void check_pictures(const char* path, const struct job* job);
+/* A file's length from that of its head and those of `count` pieces; files end at 2 GB. */
+uint32_t file_bytes(const char* path, size_t head, uint32_t count, size_t piece);
 void check_digest(const char* path, const struct zbv_head* head, const struct zbv_job* job);
 
 /* The colour table of a tree or of its views. */

@@ -50,6 +50,12 @@ TEST_F(BadFiles, JobsOfViewsAreRefused) {
   with([](zbv_job& j) { j.view_height = 5000; }, "view height: is 5000");
   with([](zbv_job& j) { j.rule = 2; }, "rule: is 2");
   with([](zbv_job& j) { j.leaf_side = 7; }, "leaf side: is 7");
+  with(
+      [](zbv_job& j) {
+        j.bands = 32;
+        j.view_width = j.view_height = 1024;
+      },
+      "asks for a file of");
   with([](zbv_job& j) { j.pitch = 1e-5f; }, "pitch: is too small");
 }
 
@@ -151,6 +157,12 @@ TEST_F(BadFiles, JobsOfPicturesAreRefused) {
   with([](JobFile& j) { j.frames[0].frame[0] *= 2; }, "frame 0: its axes are not orthonormal");
   with([](JobFile& j) { j.frames[0].light[1] += 1; }, "frame 0: the light's direction");
   with([](JobFile& j) { j.facts.options = 8; }, "options: is 8");
+  with(
+      [](JobFile& j) {
+        j.facts.width = j.facts.height = 1024;
+        j.frames.assign(256, j.frames[0]);
+      },
+      "asks for a file of 2147491880 bytes");
   with(
       [](JobFile& j) {
         j.facts.shadows = 1;

@@ -1,3 +1,5 @@
+#include <nlohmann/json.hpp>
+
 #include "tests/firmware/zbuffer_views/sgi_4d35/programs.h"
 
 namespace dendro::zbuffer_views {
@@ -70,6 +72,24 @@ TEST(ZbufferViewsPrograms, PolygonsAreTheSameOnTheMachineAndUnderQemu) {
   expect_the_same_everywhere("polygons", write_file("job", job.bytes()), tree_path, "whole");
   job.facts.scale = 60;  // most of the trees is outside
   expect_the_same_everywhere("polygons", write_file("job", job.bytes()), tree_path, "near");
+}
+
+TEST(ZbufferViewsPrograms, EmptySamplesDoNotTrap) {
+  // The R3010 gives up on denormal numbers: a division by 3.4e38 would trap for every empty sample.
+  const TreeFile tree = random_tree(6, 20);
+  JobFile job = small_job(tree);
+  const std::string views = write_file("some_views", precomputed(tree, job)),
+                    json = mips::scratch() + "/run.json", to = mips::scratch() + "/made";
+  job.facts.projection = kZbvPerspective;
+  job.facts.scale = 80;
+  job.facts.shadows = 1;
+  made_by(mips::model(program("reconstruct"), write_file("job", job.bytes()) + " " + views + " " + to,
+                      "--json " + json),
+          to);
+  const auto units = nlohmann::json::parse(read_file(json)).at("units").at("sgi_4d35.processor");
+  const int others = units.at("exceptions").get<int>() - units.at("tlb_refills").get<int>();
+  EXPECT_GT(others, 20) << "calls of the monitor";
+  EXPECT_LT(others, 500) << "of 15,360 stored samples";
 }
 
 TEST(ZbufferViewsPrograms, DirectionsAreExactAtTies) {

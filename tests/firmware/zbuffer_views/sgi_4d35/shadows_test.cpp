@@ -77,29 +77,37 @@ TEST(Shadows, ASlabTwoThresholdsAboveAnotherShadowsIt) {
   };
   slab(0.8f, 0, 0);
   slab(0.35f, gap, 1);
-  JobFile job = job_of(tree, epsilon);
-  // The shadow falls 0.26 beside the upper slab, where the camera sees it.
+  // The shadow falls 0.13 beside the upper slab, where the camera sees it.
   const std::array<double, 3> light = {1.5 * gap, gap, 0};
-  job.frames = {look({1, 7, 2}, {0, 0, 0}, light)};
-  const Picture picture = reconstructed(precomputed(tree, job), job).pictures.at(0);
-  const zbv_frame& f = job.frames[0];
-  int shadowed = 0, lit = 0;
-  for (int j = 0; j < 128; ++j)
-    for (int i = 0; i < 128; ++i) {
-      const auto at = static_cast<std::size_t>((127 - j) * 128 + i);
-      if (picture.colour[at] != 0) continue;
-      const double x = (i - 63.5) / 60, y = (j - 63.5) / 60, z = picture.depth[at];
-      double p[3];
-      for (int k = 0; k < 3; ++k) p[k] = f.eye[k] + x * f.frame[k] + y * f.frame[3 + k] + z * f.frame[6 + k];
-      // Where the ray to the light passes the upper slab's height.
-      const double to_x = p[0] + 1.5 * gap, distance = std::max(std::fabs(to_x), std::fabs(p[2])) - 0.35;
-      if (std::fabs(distance) < 3.0 / 60) continue;
-      const bool dark = picture.red[at] == 77;
-      EXPECT_EQ(distance < 0, dark) << i << " " << j;
-      ++(dark ? shadowed : lit);
+  for (const bool perspective : {false, true}) {
+    JobFile job = job_of(tree, epsilon);
+    job.frames = {look({1, 7, 2}, {0, 0, 0}, light)};
+    if (perspective) {
+      job.facts.projection = kZbvPerspective;
+      job.facts.scale = 440;
     }
-  EXPECT_GT(shadowed, 80);
-  EXPECT_GT(lit, 2000);
+    const Picture picture = reconstructed(precomputed(tree, job), job).pictures.at(0);
+    const zbv_frame& f = job.frames[0];
+    int shadowed = 0, lit = 0;
+    for (int j = 0; j < 128; ++j)
+      for (int i = 0; i < 128; ++i) {
+        const auto at = static_cast<std::size_t>((127 - j) * 128 + i);
+        if (picture.colour[at] != 0) continue;
+        const double z = picture.depth[at], wide = perspective ? z : 1;
+        const double x = (i - 63.5) / job.facts.scale * wide, y = (j - 63.5) / job.facts.scale * wide;
+        double p[3];
+        for (int k = 0; k < 3; ++k)
+          p[k] = f.eye[k] + x * f.frame[k] + y * f.frame[3 + k] + z * f.frame[6 + k];
+        // Where the ray to the light passes the upper slab's height.
+        const double to_x = p[0] + 1.5 * gap, distance = std::max(std::fabs(to_x), std::fabs(p[2])) - 0.35;
+        if (std::fabs(distance) < 3.0 / 60) continue;
+        const bool dark = picture.red[at] == 77;
+        EXPECT_EQ(distance < 0, dark) << i << " " << j;
+        ++(dark ? shadowed : lit);
+      }
+    EXPECT_GT(shadowed, 80);
+    EXPECT_GT(lit, 2000);
+  }
 }
 
 }  // namespace
