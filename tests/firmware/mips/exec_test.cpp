@@ -67,6 +67,13 @@ TEST(MipsPrograms, TheJsonOfARunHasNoTimeAtFunction) {
     EXPECT_NE(std::string::npos, text.find(part)) << part << "\n" << text;
 }
 
+TEST(MipsPrograms, AProfileAtCycleNamesTheFunctionsAndTheCauses) {
+  const Ran ran = run(std::string(DENDRO) + " exec sgi-4d35 " + elf("integers") + " --level cycle --profile </dev/null");
+  ASSERT_EQ(0, ran.status) << ran.errors;
+  for (const char* part : {"cycles per instruction", "base", "data misses", "  main\n", "  (monitor)\n"})
+    EXPECT_NE(std::string::npos, ran.errors.find(part)) << part << "\n" << ran.errors;
+}
+
 TEST(MipsPrograms, AnImpossibleMachineIsRefused) {
   for (const char* bytes : {"8388608", "1000000000000", "-1", "33554433"}) {
     const Ran ran =
