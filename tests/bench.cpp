@@ -15,6 +15,7 @@
 #include "models/parts/dr64/dr64_timing.h"
 #include "models/parts/ik11b/ik11b_isa.h"
 #include "sim/study/run.h"
+#include "tests/support/tape.h"
 
 // Host time of the parts that the levels' speed rests on. Whole runs are measured by `dendro bench`.
 namespace dendro {
@@ -116,25 +117,6 @@ void pixel_planes_at_clocked(benchmark::State& state) {
   state.counters["busy"] = static_cast<double>(machine->instructions()) / static_cast<double>(machine->cycles());
 }
 BENCHMARK(pixel_planes_at_clocked)->Iterations(1)->Unit(benchmark::kMillisecond);
-
-/// Keeps what a host program writes.
-class Tape : public HostPort {
- public:
-  std::vector<std::pair<std::uint32_t, std::uint32_t>> words;
-
-  std::uint32_t read(std::uint32_t, unsigned) override { return 0; }
-  void write(std::uint32_t address, std::uint32_t value, unsigned) override { words.emplace_back(address, value); }
-  void dma_to(std::uint32_t address, const std::uint32_t* values, std::size_t count, unsigned, std::uint32_t step) override {
-    for (std::size_t i = 0; i < count; ++i) words.emplace_back(address + static_cast<std::uint32_t>(i) * step, values[i]);
-  }
-  void dma_from(std::uint32_t, std::uint32_t*, std::size_t, unsigned, std::uint32_t) override {}
-  void command(std::uint32_t) override {}
-  void wait_interrupt() override {}
-  void compute(const Work&) override {}
-  void phase(std::string_view) override {}
-  std::uint32_t peek(std::uint32_t, unsigned) const override { return 0; }
-  void program(std::string_view, std::uint32_t) override {}
-};
 
 // The 200 trees of 12 planes of FG86 6.3, 14.4 ms of the machine's time; argument 1: tiles that cannot be seen are left.
 void grove_on_pixel_planes(benchmark::State& state) {

@@ -11,4 +11,9 @@ const char* level_name(Level level) {
   }
 }
 
+trace::VcdWindow vcd_window(const MachineOptions& options, std::int64_t tick_ps) {
+  const auto ps = [tick_ps](std::int64_t ticks) { return ticks > INT64_MAX / tick_ps ? INT64_MAX : ticks * tick_ps; };
+  return {ps(options.vcd_from), ps(options.vcd_to), options.vcd_units};
+}
+
 }  // namespace dendro

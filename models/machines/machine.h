@@ -13,6 +13,7 @@
 #include "models/parts/service_block/service_block.h"
 #include "sim/config/parameters.h"
 #include "sim/trace/trace_file.h"
+#include "sim/trace/vcd.h"
 
 namespace dendro {
 
@@ -85,6 +86,9 @@ struct MachineOptions {
       for (const auto& [at, mark] : known->second) marks[first + at] = mark;
   }
 };
+
+/// The window of the options' waveform in picoseconds, for a machine whose tick takes `tick_ps`.
+trace::VcdWindow vcd_window(const MachineOptions& options, std::int64_t tick_ps);
 
 /// One machine at one level of fidelity, for one run.
 class Machine {

@@ -2,18 +2,16 @@
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
-#include <sys/wait.h>
-#include <unistd.h>
 
 #include <cmath>
 #include <cstring>
-#include <iostream>
 #include <tuple>
 
 #include "models/machines/pixel_planes/clocked.h"
 #include "models/machines/pixel_planes/cycle.h"
 #include "models/machines/pixel_planes/pixel_planes_map.h"
 #include "sim/base/error.h"
+#include "tests/support/in_child.h"
 
 namespace dendro::pixel_planes {
 namespace {
@@ -292,25 +290,6 @@ void expect_same(const Machine& cycle, const Machine& clocked, const Spec& spec)
   EXPECT_EQ(p.width, q.width);
   EXPECT_EQ(p.height, q.height);
   EXPECT_TRUE(p.rgb == q.rgb) << "pictures differ";
-}
-
-void in_child(const std::function<void()>& body, const std::string& repeat) {
-  std::cout.flush();
-  const pid_t child = fork();
-  ASSERT_GE(child, 0);
-  if (child == 0) {
-    try {
-      body();
-    } catch (const std::exception& e) {
-      ADD_FAILURE() << e.what();
-    }
-    std::cout.flush();
-    std::fflush(nullptr);
-    _exit(::testing::Test::HasFailure() ? 1 : 0);
-  }
-  int status = 0;
-  ASSERT_EQ(waitpid(child, &status, 0), child);
-  ASSERT_TRUE(WIFEXITED(status) && WEXITSTATUS(status) == 0) << repeat;
 }
 
 void expect_lockstep(const Scenario& scenario, const std::string& repeat) {

@@ -26,10 +26,6 @@ void expect_same_pixels(const Machine& a, const Machine& b, const Spec& spec, co
 /// Fails the calling test where clocks, counters, phases, pixels or pictures differ.
 void expect_same(const Machine& cycle, const Machine& clocked, const Spec& spec);
 
-/// Runs a test's body in a child process, because SystemC elaborates once per process. Fails the calling test
-/// if it fails.
-void in_child(const std::function<void()>& body, const std::string& repeat);
-
 /// Runs `cycle` and `clocked` in a child process and compares all that can be seen, and what the programs
 /// read. `repeat` says how to repeat it.
 void expect_lockstep(const Scenario& scenario, const std::string& repeat);

@@ -6,6 +6,7 @@
 #include "sim/study/algorithms.h"
 #include "sim/study/run.h"
 #include "tests/lockstep/pixel_planes_lockstep.h"
+#include "tests/support/in_child.h"
 
 namespace dendro::pixel_planes {
 namespace {

@@ -1,18 +1,15 @@
 #pragma once
 
-#include <gtest/gtest.h>
-#include <sys/wait.h>
-#include <unistd.h>
-
 #include <cstdint>
 #include <cstring>
 #include <functional>
-#include <iostream>
 #include <memory>
 #include <vector>
 
 #include "models/machines/pixel_planes/clocked.h"
 #include "models/machines/pixel_planes/pixel_planes_map.h"
+#include "tests/support/in_child.h"
+#include "tests/support/systemc_main.h"
 
 /// What the tests of the clocked Pixel-Planes share: a small machine, hand-assembled programs, one simulation
 /// per child process.
@@ -108,31 +105,4 @@ class Rig {
   std::unique_ptr<ClockedEngine> engine;
 };
 
-/// Runs a test's body in a child, because SystemC elaborates once per process.
-inline void in_child(const std::function<void()>& body) {
-  std::cout.flush();
-  const pid_t child = fork();
-  ASSERT_GE(child, 0);
-  if (child == 0) {
-    try {
-      body();
-    } catch (const std::exception& e) {
-      ADD_FAILURE() << e.what();
-    }
-    std::cout.flush();
-    std::fflush(nullptr);
-    _exit(::testing::Test::HasFailure() ? 1 : 0);
-  }
-  int status = 0;
-  ASSERT_EQ(waitpid(child, &status, 0), child);
-  EXPECT_TRUE(WIFEXITED(status) && WEXITSTATUS(status) == 0)
-      << "the test's process failed; its messages are above";
-}
-
 }  // namespace dendro::pixel_planes
-
-int main(int argc, char** argv) {
-  sc_core::sc_report_handler::set_actions(sc_core::SC_INFO, sc_core::SC_DO_NOTHING);
-  ::testing::InitGoogleTest(&argc, argv);
-  return RUN_ALL_TESTS();
-}

@@ -1,9 +1,5 @@
 #pragma once
 
-#include <gtest/gtest.h>
-#include <sys/wait.h>
-#include <unistd.h>
-
 #include <cstdint>
 #include <functional>
 #include <map>
@@ -13,6 +9,8 @@
 #include <vector>
 
 #include "models/machines/rds3000/clocked.h"
+#include "tests/support/in_child.h"
+#include "tests/support/systemc_main.h"
 
 /// What the tests of the clocked RDS-3000 share: words by field, a host, one simulation per child process.
 namespace dendro::rds3000 {
@@ -119,31 +117,4 @@ class Rig {
   std::int64_t origin = 0;
 };
 
-/// Runs a test's body in a child, because SystemC elaborates once per process.
-inline void in_child(const std::function<void()>& body) {
-  std::cout.flush();
-  const pid_t child = fork();
-  ASSERT_GE(child, 0);
-  if (child == 0) {
-    try {
-      body();
-    } catch (const std::exception& e) {
-      ADD_FAILURE() << e.what();
-    }
-    std::cout.flush();
-    std::fflush(nullptr);
-    _exit(::testing::Test::HasFailure() ? 1 : 0);
-  }
-  int status = 0;
-  ASSERT_EQ(waitpid(child, &status, 0), child);
-  EXPECT_TRUE(WIFEXITED(status) && WEXITSTATUS(status) == 0)
-      << "the test's process failed; its messages are above";
-}
-
 }  // namespace dendro::rds3000
-
-int main(int argc, char** argv) {
-  sc_core::sc_report_handler::set_actions(sc_core::SC_INFO, sc_core::SC_DO_NOTHING);
-  ::testing::InitGoogleTest(&argc, argv);
-  return RUN_ALL_TESTS();
-}

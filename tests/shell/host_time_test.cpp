@@ -5,7 +5,6 @@
 namespace dendro::ik11b {
 namespace {
 
-using rds3000::in_child;
 using rds3000::now_ps;
 
 HostSpec spec() {

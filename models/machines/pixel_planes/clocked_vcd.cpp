@@ -3,24 +3,12 @@
 #include "models/machines/pixel_planes/clocked.h"
 
 namespace dendro::pixel_planes {
-namespace {
-
-trace::VcdWindow window_of(const MachineOptions& options, std::int64_t tick_ps) {
-  trace::VcdWindow window;
-  window.from = options.vcd_from > INT64_MAX / tick_ps ? INT64_MAX : options.vcd_from * tick_ps;
-  window.to = options.vcd_to > INT64_MAX / tick_ps ? INT64_MAX : options.vcd_to * tick_ps;
-  window.units = options.vcd_units;
-  return window;
-}
-
-}  // namespace
-
 ClockedVcd::ClockedVcd(ClockedEngine& engine, const MachineOptions& options)
     : engine_(engine),
       from_(options.vcd_from),
       to_(options.vcd_to),
       tick_ps_(engine.tick_ps_),
-      writer_(options.vcd_file, window_of(options, engine.tick_ps_)) {
+      writer_(options.vcd_file, vcd_window(options, engine.tick_ps_)) {
   fifo_words_ = writer_.add("host", "fifo_words", 21);
   host_waits_room_ = writer_.add("host", "waits_for_room", 1);
   host_waits_idle_ = writer_.add("host", "waits_for_idle", 1);

@@ -5,24 +5,12 @@
 #include "models/machines/rds3000/clocked.h"
 
 namespace dendro::rds3000 {
-namespace {
-
-trace::VcdWindow window_of(const MachineOptions& options, std::int64_t tick_ps) {
-  trace::VcdWindow window;
-  window.from = options.vcd_from > INT64_MAX / tick_ps ? INT64_MAX : options.vcd_from * tick_ps;
-  window.to = options.vcd_to > INT64_MAX / tick_ps ? INT64_MAX : options.vcd_to * tick_ps;
-  window.units = options.vcd_units;
-  return window;
-}
-
-}  // namespace
-
 ClockedVcd::ClockedVcd(const ClockedEngine& engine, const MachineOptions& options)
     : engine_(engine),
       from_(options.vcd_from),
       to_(options.vcd_to),
       tick_ps_(engine.tick_ps_),
-      writer_(options.vcd_file, window_of(options, engine.tick_ps_)) {
+      writer_(options.vcd_file, vcd_window(options, engine.tick_ps_)) {
   add_processor();
   owner_ = writer_.add("bus", "owner", 2);
   bus_address_ = writer_.add("bus", "address", 24);
