@@ -23,7 +23,7 @@ TEST_F(Primitives, ScenesRunAndAgreeWithTheReferenceExceptAtSilhouettes) {
 }
 
 TEST_F(Primitives, AreDrawnInTilesAsInOneArray) {
-  for (const char* scene : {"teapot --set raster_primitives.patch_steps=2", "buckyball", "shadows --set raster_primitives.patch_steps=1"}) {
+  for (const char* scene : {"teapot --set raster_primitives.patch_steps=2", "buckyball", "shadows --set raster_primitives.patch_steps=2"}) {
     SCOPED_TRACE(scene);
     json runs[2];
     for (const bool tiled : {false, true}) {
