@@ -36,7 +36,7 @@ TEST_F(Primitives, AreDrawnInTilesAsInOneArray) {
     }
     EXPECT_EQ(runs[0]["covered_pixels"], runs[1]["covered_pixels"]);
     EXPECT_EQ(runs[0]["wrong_pixels"], runs[1]["wrong_pixels"]);  // edges are exact in both
-    EXPECT_NEAR(runs[0]["psnr_db"].get<double>(), runs[1]["psnr_db"].get<double>(), 0.5);
+    EXPECT_NEAR(runs[0]["psnr_db"].get<double>(), runs[1]["psnr_db"].get<double>(), 1);  // roundings choose texels
     EXPECT_LE(runs[1]["inner_wrong_shadows"].get<double>(), 1);
   }
 }
