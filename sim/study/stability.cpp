@@ -7,6 +7,8 @@
 #include <nlohmann/json.hpp>
 
 #include "firmware/half_space/stability/cases.h"
+#include "firmware/lib/workstation_rig.h"
+#include "firmware/zbuffer_views/stability/cases.h"
 #include "sim/base/check.h"
 #include "sim/base/error.h"
 #include "sim/config/preset.h"
@@ -16,6 +18,7 @@
 #include "sim/study/run.h"
 #include "sim/study/stability_tree.h"
 #include "sim/study/worker.h"
+#include "sim/study/workstation.h"
 
 namespace dendro::study {
 namespace {
@@ -27,7 +30,7 @@ using stability::Row;
 using Json = nlohmann::json;
 
 /// A catalogue machine with one preset's parameters.
-class CatalogueRig : public stability::Rig {
+class CatalogueRig : public stability::Rig, public stability::WorkstationRig {
  public:
   CatalogueRig(const Catalogue& catalogue, const std::string& machine)
       : preset_(config::load_preset(machine, catalogue.presets(), {"--machine", 0})),
@@ -71,6 +74,13 @@ class CatalogueRig : public stability::Rig {
     view.width = picture.width, view.height = picture.height;
     view.rgb = picture.rgb.data();
     inspect(view);
+  }
+
+  std::string exec(const std::string& program, const std::vector<std::string>& arguments,
+                   stability::Files& files) const override {
+    MemoryServices services(files);
+    run_shipped(*type_, preset_.parameters, Level::kFunction, {}, program, arguments, services);
+    return services.output;
   }
 
  private:
@@ -128,7 +138,8 @@ Json to_json(const Row& row) {
 const std::vector<StabilitySuite>& stability_suites() {
   static const std::vector<StabilitySuite> list = {
       {"half_space", "rds3000:fg86", half_space::stability_cases()},
-      {"half_space", "pixel-planes:pxpl4", half_space::planes_stability_cases()}};
+      {"half_space", "pixel-planes:pxpl4", half_space::planes_stability_cases()},
+      {"zbuffer_views", "sgi-4d35", zbuffer_views::stability_cases()}};
   return list;
 }
 

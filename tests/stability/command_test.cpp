@@ -15,7 +15,7 @@ TEST_F(Stability, EveryCaseHoldsAndItsRowsHaveTheContractsKeys) {
   const json s = json::parse(read("s.json"));
   EXPECT_EQ("stability", s["command"]);
   for (const char* id : {"N-A1", "N-A2", "N-A3", "N-A4", "N-A5", "N-A6", "N-A7", "N-A8", "N-A9", "N-A10", "X1", "X2",
-                         "X3", "X4", "X6", "N-P1", "N-P2", "N-P3", "N-P4"})
+                         "X3", "X4", "X6", "N-P1", "N-P2", "N-P3", "N-P4", "N-B1", "N-B2", "N-B3", "N-B4", "N-B5", "N-B6", "N-B7", "N-B8"})
     EXPECT_TRUE(std::any_of(s["rows"].begin(), s["rows"].end(), [&](const json& row) {
       return row["case"] == id;
     })) << id;
