@@ -15,9 +15,17 @@ class WorkstationRig {
  public:
   virtual ~WorkstationRig() = default;
 
-  /// Runs a program that ships with dendro on a fresh machine at level `function` and returns its standard output. Throws
-  /// UserError when it does not end with 0.
-  virtual std::string exec(const std::string& program, const std::vector<std::string>& arguments, Files& files) const = 0;
+  /// The bytes of a program that ships with dendro.
+  virtual std::string program_bytes(const std::string& program) const = 0;
+
+  /// Runs a program on a fresh machine at level `function` and returns its standard output. Throws UserError when it does not
+  /// end with 0.
+  virtual std::string exec(const std::string& program, const std::vector<std::string>& arguments, Files& files) const {
+    return exec_bytes(program, program_bytes(program), arguments, files);
+  }
+  /// The same of other bytes; `program` is their name in messages.
+  virtual std::string exec_bytes(const std::string& program, const std::string& bytes, const std::vector<std::string>& arguments,
+                                 Files& files) const = 0;
 };
 
 }  // namespace dendro::stability

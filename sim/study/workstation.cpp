@@ -42,10 +42,10 @@ std::string shipped_program(const std::string& name) {
   return bytes;
 }
 
-ProgramResult run_shipped(const MachineType& type, const config::ParameterSet& parameters, Level level,
-                          const MachineOptions& options, const std::string& program,
-                          const std::vector<std::string>& arguments, MemoryServices& services) {
-  const ElfProgram elf = read_elf(shipped_program(program), program);
+ProgramResult run_elf(const MachineType& type, const config::ParameterSet& parameters, Level level, const MachineOptions& options,
+                      const std::string& program, const std::string& bytes, const std::vector<std::string>& arguments,
+                      MemoryServices& services) {
+  const ElfProgram elf = read_elf(bytes, program);
   ExecArguments call;
   call.program = program;
   call.arguments = arguments;
@@ -67,8 +67,8 @@ ElfWorkstation::ElfWorkstation(const RunRequest& request, const ProgramJob& job,
 void ElfWorkstation::run(const std::string& program, const std::vector<std::string>& arguments, bool timed) {
   if (progress_ != nullptr) progress_->phase(program);
   MemoryServices services(files_);
-  const ProgramResult result = run_shipped(*request_.type, request_.preset.parameters, timed ? request_.level : Level::kFunction,
-                                           request_.options, program, arguments, services);
+  const ProgramResult result = run_elf(*request_.type, request_.preset.parameters, timed ? request_.level : Level::kFunction,
+                                       request_.options, program, shipped_program(program), arguments, services);
   clock_hz_ = result.clock_hz;
   if (timed) {
     instructions_ += result.instructions;

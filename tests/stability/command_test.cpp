@@ -49,6 +49,14 @@ TEST_F(Stability, TheSeedDecidesEverythingRandomAndChosenCasesComeAlone) {
   for (const json& row : rows) EXPECT_TRUE(row["case"] == "X3" || row["case"] == "N-A10") << row;
 }
 
+TEST_F(Stability, ListNamesEveryCaseWithItsMachineAndRunsNone) {
+  const Result result = dendro("stability list");
+  ASSERT_EQ(0, result.status) << result.err;
+  for (const char* part : {"N-A1 ", "N-P4 ", "N-B8 ", "sgi-4d35", "pixel-planes:pxpl4", "rds3000:fg86"})
+    EXPECT_NE(std::string::npos, result.out.find(part)) << part;
+  EXPECT_EQ(result.out.npos, result.out.find("bounds hold"));
+}
+
 TEST_F(Stability, BadInputIsOneLineAndLeavesNothing) {
   expect_user_error("stability N-A99", "N-A10");
   expect_user_error("stability N-A10 --jobs 0", "--jobs");

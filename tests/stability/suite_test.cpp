@@ -7,8 +7,6 @@
 #include <nlohmann/json.hpp>
 
 #include "firmware/half_space/stability/cases.h"
-#include "firmware/lib/workstation_rig.h"
-#include "firmware/zbuffer_views/stability/program_files.h"
 #include "models/machines/pixel_planes/pixel_planes.h"
 #include "models/machines/rds3000/rds3000.h"
 #include "models/machines/sgi_4d35/sgi_4d35.h"
@@ -140,54 +138,12 @@ class FaultyArray : public stability::Rig {
   const stability::Rig& sound_;
 };
 
-/// A workstation with a fault: a bit of every depth is wrong, of every count and of every stored latitude, stored depths are one too
-/// large, and the last digit that is printed is wrong.
-class FaultyWorkstation : public FaultyRig, public stability::WorkstationRig {
- public:
-  explicit FaultyWorkstation(const stability::Rig& sound) : FaultyRig(sound), workstation_(dynamic_cast<const WorkstationRig&>(sound)) {}
-
-  std::string exec(const std::string& program, const std::vector<std::string>& arguments, stability::Files& files) const override {
-    std::string printed = workstation_.exec(program, arguments, files);
-    if (const std::size_t digit = printed.find_last_of("0123456789"); digit != std::string::npos) printed[digit] ^= 1;
-    auto& made = files["to"];
-    if (program == "zbuffer_views_precompute" && !made.empty()) {
-      zbuffer_views::ViewsFile views = zbuffer_views::ViewsFile::parse({made.begin(), made.end()});
-      for (auto& view : views.layers)
-        for (auto& layer : view) {
-          for (std::uint8_t& byte : layer.latitude) byte ^= 2;
-          for (float& z : layer.z) z += 1;
-        }
-      const std::string bytes = views.bytes();
-      made.assign(bytes.begin(), bytes.end());
-    }
-    if (program == "zbuffer_views_reconstruct") spoil_pictures(made);
-    return printed;
-  }
-
- private:
-  static void spoil_pictures(std::vector<std::uint8_t>& made) {
-    const auto word = [&](std::size_t at) { return std::size_t{made[at + 2]} << 8 | made[at + 3]; };
-    const std::size_t pixels = word(28) * word(32), frames = word(36);
-    for (std::size_t k = 0, at = sizeof(zbv_pictures); k < frames; ++k) {
-      made[at + 3] ^= 1;
-      made[at + 7] ^= 1;
-      at += sizeof(zbv_picture);
-      for (std::size_t p = 0; p < pixels; ++p) made[at + 4 * p + 1] ^= 0x10;
-      at += 8 * pixels;
-    }
-  }
-
-  const WorkstationRig& workstation_;
-};
-
 /// The real cases on the faulty machine.
 std::vector<StabilitySuite> faulty_suites() {
   std::vector<StabilitySuite> suites = stability_suites();
   for (StabilitySuite& suite : suites)
     for (stability::Case& one : suite.cases)
-      one.run = [sound = one.run, workstation = suite.machine == "sgi-4d35", array = suite.machine != "rds3000:fg86"](
-                    const stability::Rig& rig, std::uint64_t seed) {
-        if (workstation) return sound(FaultyWorkstation(rig), seed);
+      one.run = [sound = one.run, array = suite.machine != "rds3000:fg86"](const stability::Rig& rig, std::uint64_t seed) {
         return array ? sound(FaultyArray(rig), seed) : sound(FaultyRig(rig), seed);
       };
   return suites;
@@ -216,18 +172,6 @@ INSTANTIATE_TEST_SUITE_P(Cases, Faulty,
                            name.erase(std::remove(name.begin(), name.end(), '-'), name.end());
                            return name;
                          });
-
-class FaultyPrograms : public ::testing::TestWithParam<const char*> {};
-
-TEST_P(FaultyPrograms, EveryCaseFailsOnAWorkstationWithAFault) {
-  const auto results = run(faulty_suites(), {GetParam()});
-  ASSERT_EQ(1u, results.size());
-  EXPECT_GT(failures(results[0]), 0) << stability_text(results);
-}
-
-INSTANTIATE_TEST_SUITE_P(Cases, FaultyPrograms,
-                         ::testing::Values("N-B1", "N-B2", "N-B3", "N-B4", "N-B5", "N-B6", "N-B7", "N-B8"),
-                         [](const auto& tested) { return "NB" + std::string(tested.param).substr(3); });
 
 TEST(SuiteLong, EveryBoundHoldsForOtherSeeds) {
   for (const std::uint64_t seed : {2u, 3u}) {

@@ -123,6 +123,8 @@ void compare_choices(const stability::Rig& rig, int bands, std::uint64_t seed, C
   Blank blank = blank_views(rig, bands, 8, 0.125f);
   blank.job.facts.projection = kZbvPerspective;
   blank.job.facts.scale = 1;
+  blank.job.facts.width = blank.job.facts.height = 8;
+  blank.job.facts.centre_x = blank.job.facts.centre_y = 3.5f;
   for (const auto& d : all) {
     zbv_frame frame = facing(d, 1);
     // The direction is that of the eye, which holds these numbers exactly.

@@ -93,6 +93,11 @@ std::vector<Corners> triangles_of(std::mt19937_64& random) {
     const double p = (2 * (k * 16 + 3) + 1) * M_PI / 256;
     normals.push_back({std::sin(p), 0, std::cos(p)});
   }
+  // All but half a step of latitude from the poles, where the byte says a pole.
+  for (int k = 0; k < 8; ++k) {
+    const double tilt = 0.999 * M_PI / 510, p = (2 * k + 1) * M_PI / 8;
+    normals.push_back({std::sin(tilt) * std::sin(p), (k % 2 == 0 ? 1 : -1) * std::cos(tilt), std::sin(tilt) * std::cos(p)});
+  }
   while (normals.size() < 240) {
     std::array<double, 3> n;
     for (double& c : n) c = static_cast<double>(random() % 20001) / 10000 - 1;

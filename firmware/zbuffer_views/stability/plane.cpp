@@ -34,9 +34,9 @@ double Plane::depth(const float* frame, double x, double y) const {
 }
 
 bool Plane::contains(const float* frame, double x, double y, double margin) const {
-  for (const mpq_class& c : point(*this, frame, x, y))
-    if (abs(c) > mpq_class(half - margin)) return false;
-  return true;
+  const Exact3 p = point(*this, frame, x, y);
+  const mpq_class level(half - margin), upright(half_up - margin);
+  return abs(p[0]) <= level && abs(p[1]) <= upright && abs(p[2]) <= level;
 }
 
 double Plane::steepness(const float* frame) const {
@@ -56,7 +56,7 @@ void store_plane(ViewsFile& views, std::size_t view, const Plane& plane, std::ui
       const double z = origin + across * x + up * y;
       bool inside = true;
       for (std::size_t k = 0; k < 3; ++k)
-        inside = inside && std::abs(frame[k] * x + frame[3 + k] * y + frame[6 + k] * z) <= plane.half;
+        inside = inside && std::abs(frame[k] * x + frame[3 + k] * y + frame[6 + k] * z) <= (k == 1 ? plane.half_up : plane.half);
       if (inside) put_sample(views, view, i, j, static_cast<float>(z), colour);
     }
 }

@@ -8,14 +8,14 @@
 
 namespace dendro::zbuffer_views {
 
-/// The part of the plane normal · p = distance in a cube of half side `half` around the tree's centre.
+/// The part of the plane normal · p = distance in a box around the tree's centre: `half` to every side, `half_up` up and down.
 struct Plane {
   std::array<double, 3> normal;
-  double distance = 0, half = 0.7;
+  double distance = 0, half = 0.7, half_up = half;
 
   /// The depth at which the line of sight through (x, y) of a frame meets the plane, exact but for the last rounding.
   double depth(const float* frame, double x, double y) const;
-  /// Whether that point lies in the cube, `margin` inside.
+  /// Whether that point lies in the box, `margin` inside.
   bool contains(const float* frame, double x, double y, double margin) const;
   /// |dz/dx| + |dz/dy| along the frame's axes: twice what half a pixel both ways changes the depth.
   double steepness(const float* frame) const;

@@ -74,11 +74,14 @@ void compare_halves(const stability::Rig& rig, Blank blank, std::mt19937_64& ran
 /// One pixel in which the samples of all views meet; the nearest of those that are chosen, else the lowest number.
 struct Ties {
   Faults lowest, nearer;
-  std::int64_t with_others = 0;
+  std::int64_t with_others = 0, not_first = 0;  ///< pictures in which others meet; in which the nearest is not the first
 };
 
 void compare_ties(const stability::Rig& rig, const Blank& blank, std::mt19937_64& random, Ties& out) {
   JobFile job = blank.job;
+  // The axis in the middle of a pixel, which the steps of depth do not leave.
+  job.facts.width = job.facts.height = 8;
+  job.facts.centre_x = job.facts.centre_y = 4;
   for (int k = 0; k < 120; ++k) {
     std::array<double, 3> d;
     for (double& c : d) c = static_cast<double>(random() % 2001) / 1000 - 1;
@@ -121,7 +124,9 @@ void compare_ties(const stability::Rig& rig, const Blank& blank, std::mt19937_64
       if (best != views && abs(moved - least) < mpq_class(0x1p-20)) clear = false;
       if (best == views || moved < least) best = v, least = moved;
     }
-    if (clear && shown(apart) != best) out.nearer.fault(fmt::format("frame {}: view {} is shown, not {}", f, shown(apart), best));
+    if (!clear) continue;
+    out.not_first += best != chosen[f].front();
+    if (shown(apart) != best) out.nearer.fault(fmt::format("frame {}: view {} is shown, not {}", f, shown(apart), best));
   }
 }
 
@@ -166,7 +171,9 @@ stability::Result view_ties(const stability::Rig& rig, std::uint64_t seed) {
   compare_ties(rig, at_axis(rig), random, ties);
   return {{no_fault("N-B4", "pictures that do not show the lowest number of the views that tie", ties.lowest, "pictures", "integers"),
            no_fault("N-B4", "a few steps apart: pictures that do not show the nearest", ties.nearer, "pictures", "gmp"),
-           must_show("N-B4", "pictures in which several views meet", static_cast<double>(ties.with_others), "pictures", "integers")},
+           must_show("N-B4", "pictures in which several views meet", static_cast<double>(ties.with_others), "pictures", "integers"),
+           must_show("N-B4", "a few steps apart: pictures whose nearest has not the lowest number", static_cast<double>(ties.not_first),
+                     "pictures", "gmp")},
           {}};
 }
 
