@@ -128,9 +128,9 @@ std::uint64_t Pipeline::memory_slowly(std::uint64_t now) {
 std::uint64_t Pipeline::put_off_memory(std::uint64_t now) {
   const Event event = event_;
   event_ = put_off_;
-  const std::uint64_t then = memory(now);
+  put_off_until_ = memory(now);
   event_ = event;
-  return then;
+  return put_off_until_;
 }
 
 void Pipeline::in_memory(std::uint32_t pc, bool killed, bool refill, bool rfe) {

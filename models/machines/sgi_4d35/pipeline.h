@@ -111,6 +111,8 @@ class Pipeline {
     event_.kind = Event::kNone;
   }
   std::uint64_t put_off_memory(std::uint64_t now);
+  /// The clock in which MEM let go of the last word that was put off.
+  std::uint64_t put_off_until() const { return put_off_until_; }
 
   // Careful steps: what stands in MEM, and run clocks.
   unsigned exception_positions() const { return spec_.pipeline.exception_cycles; }
@@ -162,6 +164,7 @@ class Pipeline {
   r3000_bus::Bus bus_;
   r3010::Scoreboard fpu_;
   Event event_, put_off_, swap_;
+  std::uint64_t put_off_until_ = 0;
   bool same_access_ = false;
   InAlu in_alu_;
   std::uint64_t multiplier_start_ = 0, multiplier_free_ = 0;

@@ -61,6 +61,8 @@ class Core {
   Timing& time() { return time_; }
   /// Timed: after the last word, all that comes before the machine stops; time_.clock() is then the last clock.
   void settle();
+  /// Timed: the end of the last word's step, its wait in MEM with it, is put off until the next has executed.
+  bool puts_off() const { return deferred_; }
   /// Timed: from here on caches are kept up to date and nothing takes time, or no more so.
   void warm(bool on) { warm_ = on; }
 
