@@ -98,7 +98,7 @@ std::vector<std::string> settings_for(const TableContext& context, const std::st
 }
 
 const std::vector<PaperTable>& paper_tables() {
-  static const std::vector<PaperTable> tables = {fg86_table(), fghs85_table()};
+  static const std::vector<PaperTable> tables = {fg86_table(), fghs85_table(), mo95_table()};
   return tables;
 }
 

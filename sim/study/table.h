@@ -72,5 +72,6 @@ std::string table_text(const std::vector<TableRow>& rows);
 /// The paper's tables; each in a file of its own.
 PaperTable fg86_table();
 PaperTable fghs85_table();
+PaperTable mo95_table();
 
 }  // namespace dendro::study
