@@ -73,6 +73,7 @@ TEST_F(PixelPlanes, WhatDoesNotFitIsOneLine) {
   expect_user_error(run + "half_space.variant=scratch", "half_space.variant: the scratch copy needs a memory with two ports");
   expect_user_error(run + "parameters.array.width=256", "image.width: 512 is more than the 256 pixels of the array");
   expect_user_error(run + "parameters.array.width=300", "array.width: must be a power of two");
+  expect_user_error(run + "half_space.guard_bits=23", "half_space.guard_bits: 16 depth, 10 fraction and 23 guard bits do not fit a stream of 48 bits");
   expect_user_error(run + "parameters.array.ports=3", "array.ports");
   expect_user_error(run + "parameters.tree.masked=false", "tree.gap_clocks: without masks an expression runs into the next unless 8 clocks or more lie between");
   expect_user_error(run + "parameters.array.memory_bit=3", "did you mean `array.memory_bits`?");

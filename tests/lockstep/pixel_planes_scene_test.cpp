@@ -83,6 +83,15 @@ TEST(PixelPlanesScenes, TiledPicturesAreEqualWhateverTheNumberOfRenderers) {
   }
 }
 
+TEST(PixelPlanesScenes, TiledPrimitivesAreEqual) {
+  const std::string quick = "parameters.host.program_load_ms=0.1", steps = "raster_primitives.patch_steps=1";
+  for (const char* scene : {"teapot", "shadows"})
+    expect_levels_equal(scene, {quick, steps, "parameters.renderers.count=5"}, "pixel-planes:pxpl5");
+  expect_levels_equal("buckyball", {quick, "parameters.renderers.count=3"}, "pixel-planes:pxpl5");
+  expect_levels_equal("radiograph", {quick, "image.width=32", "image.height=32", "adaptive_equalisation.region=16"},
+                      "pixel-planes:pxpl5");
+}
+
 TEST(PixelPlanesScenes, EqualisationIsEqualWhicheverWayRegionsAreSent) {
   for (const char* method : {"polygon", "rows"}) {
     SCOPED_TRACE(method);
@@ -91,6 +100,13 @@ TEST(PixelPlanesScenes, EqualisationIsEqualWhicheverWayRegionsAreSent) {
                          "image.width=64", "image.height=48", "adaptive_equalisation.region=16",
                          std::string("adaptive_equalisation.method=") + method});
   }
+}
+
+TEST(PixelPlanesScenes, TexturesAreEqual) {
+  const Settings settings = {"parameters.host.program_load_ms=0.1", "raster_primitives.patch_steps=1",
+                             "raster_primitives.texture_size=16"};
+  expect_levels_equal("textured", settings);
+  expect_levels_equal("textured", settings, "pixel-planes:pxpl5");
 }
 
 /// The picture at level `clocked`, by the route of `dendro run`.

@@ -35,7 +35,7 @@ TEST_P(Sgi4d35Timing, TheTwoWordsBehindAFaultAreFetched) {
   EXPECT_EQ(37u, ran.counters.at("processor.stall_instruction_miss"));
   EXPECT_EQ(7u, ran.counters.at("processor.stall_exception"));
   EXPECT_EQ(8u, ran.counters.at("processor.busy"));
-  EXPECT_EQ(13u, ran.counters.at("instruction_cache.accesses"));
+  EXPECT_EQ(13u, ran.counters.at("instruction_cache.busy"));
   EXPECT_EQ(3u, ran.counters.at("instruction_cache.misses"));
   EXPECT_EQ(32u, ran.retired[7].clock);
   EXPECT_TRUE(ran.retired[7].killed);
@@ -53,7 +53,7 @@ TEST_P(Sgi4d35Timing, AFetchThatCannotBeTranslatedLooksUpNothing) {
   const Words code = {high(kT0, 0x0020), r3000::r_word(r3000::kFnJr, 0, kT0, 0), kNop};
   const Ran ran = run_words(GetParam(), small(), {{kCode, code}}, kCode, 4);
   EXPECT_EQ(18u, ran.cycles);
-  EXPECT_EQ(3u, ran.counters.at("instruction_cache.accesses"));
+  EXPECT_EQ(3u, ran.counters.at("instruction_cache.busy"));
   EXPECT_EQ(11u, ran.counters.at("processor.stall_instruction_miss"));
   EXPECT_EQ(1u, ran.counters.at("processor.tlb_refills"));
   EXPECT_EQ(0x00200000u, ran.state.epc);
@@ -77,7 +77,7 @@ TEST_P(Sgi4d35Timing, ABusErrorOfAStoreComesAtOnce) {
 TEST_P(Sgi4d35Timing, AFaultingAccessTouchesNoCache) {
   timed_.handler = kSkip;
   EXPECT_EQ((Clocks{0, 1, 10}), clocks({kNop, load(kT2, kCold, 1), kNop}));
-  EXPECT_EQ(0u, counter("data_cache.accesses"));
+  EXPECT_EQ(0u, counter("data_cache.busy"));
 }
 
 TEST_P(Sgi4d35Timing, AFaultingLoadWaitsForItsRegister) {
@@ -161,7 +161,7 @@ TEST_P(Sgi4d35Timing, AnIsolatedCacheChangesItsTagsAlone) {
       (Clocks{0, 1, 2, 3, 4, 5, 6, 21}),
       clocks({to_cp0(kS4, r3000::kStatus), store(kT0, kCold), store(kT0, kCold, 4), store_byte(kT0, kCold, 4),
               load(kT2, kCold, 8), to_cp0(kT0, r3000::kStatus), load(kT2, kCold), load(kT2, kCold, 4)}));
-  EXPECT_EQ(12u, counter("data_cache.accesses"));
+  EXPECT_EQ(12u, counter("data_cache.busy"));
   EXPECT_EQ(2u, counter("data_cache.misses"));
   EXPECT_EQ(0u, counter("memory.writes"));
 }

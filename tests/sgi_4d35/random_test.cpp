@@ -68,7 +68,7 @@ void expect_sane(const Ran& ran) {
   EXPECT_EQ(ran.cycles, sum);
   EXPECT_EQ(ran.instructions, ran.counters.at("processor.busy"));
   EXPECT_LE(ran.counters.at("memory.busy"), ran.cycles);
-  EXPECT_LE(ran.counters.at("data_cache.misses"), ran.counters.at("data_cache.accesses"));
+  EXPECT_LE(ran.counters.at("data_cache.misses"), ran.counters.at("data_cache.busy"));
   EXPECT_EQ(ran.retired.empty() ? 0 : ran.retired.back().clock + 1, ran.cycles);
   EXPECT_TRUE(std::is_sorted(ran.retired.begin(), ran.retired.end(),
                              [](const Retired& a, const Retired& b) { return a.clock < b.clock; }));

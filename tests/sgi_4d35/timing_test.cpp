@@ -17,7 +17,7 @@ TEST_P(Sgi4d35Timing, ARunTakesItsWordsThreeClocksAndItsMisses) {
                         {"processor.nops", 2},
                         {"processor.stall_exception", 3},
                         {"processor.stall_instruction_miss", 11},
-                        {"instruction_cache.accesses", 5},
+                        {"instruction_cache.busy", 5},
                         {"instruction_cache.misses", 1},
                         {"memory.reads", 1},
                         {"memory.read_words", 8},
@@ -61,7 +61,7 @@ TEST_P(Sgi4d35Timing, TheMultiplierRunsOnInStallClocks) {
 TEST_P(Sgi4d35Timing, AMissCostsTheFirstWordAndTheBlock) {
   EXPECT_EQ((Clocks{0, 15, 16, 17}), clocks({kNop, load(kT2, kCold), load(kT2, kCold, 12), kNop}));
   EXPECT_EQ((Clocks{0, 15, 30}), clocks({kNop, load(kT2, kCold), load(kT2, kCold, 16)}));
-  EXPECT_EQ(4u, counter("data_cache.accesses"));
+  EXPECT_EQ(4u, counter("data_cache.busy"));
   EXPECT_EQ(4u, counter("data_cache.misses"));
   Spec spec = small();
   spec.bus.first_word_cycles = 6;
@@ -106,7 +106,7 @@ TEST_P(Sgi4d35Timing, ATakenBranchOutOfTheStreamedWordsWaits) {
   EXPECT_EQ(33u, other.cycles);
   expect_counters(other, {{"processor.stall_instruction_miss", 27},
                           {"instruction_cache.misses", 2},
-                          {"instruction_cache.accesses", 5},
+                          {"instruction_cache.busy", 5},
                           {"memory.busy", 33}});
 }
 
@@ -133,11 +133,11 @@ TEST_P(Sgi4d35Timing, UncachedWordsAreReadOneByOne) {
   const Ran ran = from_reset(Words(8, kNop), 1, small(), 0xA0010000);
   EXPECT_EQ(37u, ran.cycles);
   expect_counters(ran, {{"processor.stall_instruction_miss", 33},
-                        {"instruction_cache.accesses", 0},
+                        {"instruction_cache.busy", 0},
                         {"memory.reads", 3},
                         {"memory.read_words", 3}});
   EXPECT_EQ((Clocks{0, 12, 13}), clocks({kNop, load(kT2, kUncached), kNop}));
-  EXPECT_EQ(0u, counter("data_cache.accesses"));
+  EXPECT_EQ(0u, counter("data_cache.busy"));
 }
 
 TEST_P(Sgi4d35Timing, AnUncachedReadWaitsUntilTheBufferIsEmpty) {

@@ -20,6 +20,7 @@ class Equalisation {
     host_.phase("set_up");
     driver_.show(prepared_.layout.colour(), prepared_.width, prepared_.height);
     for (const auto& [name, value] : prepared_.layout.registers()) driver_.set_register(name, value);
+    if (site_.renderers > 1) driver_.select(0);
     driver_.run("clear");
   }
 
@@ -54,6 +55,7 @@ class Equalisation {
 
   void show() {
     driver_.run("show_ranks");
+    if (site_.draws_tiles()) driver_.copy_tile(0, 0);
     host_.phase("finish");
     driver_.wait();
   }

@@ -54,7 +54,9 @@ Layout choose_layout(const scene::Scene& scene, const lib::ArraySite& site) {
 }
 
 Prepared prepare(const scene::Scene& scene, const lib::ArraySite& site) {
-  lib::check_picture_fits(scene.image, site);
+  lib::ArraySite array = site;
+  array.frame_width = array.frame_height = 0;  // a region may not be cut by tiles
+  lib::check_picture_fits(scene.image, array);
   Prepared prepared;
   prepared.width = scene.image.width, prepared.height = scene.image.height;
   prepared.layout = choose_layout(scene, site);

@@ -10,6 +10,6 @@ namespace dendro::raster_primitives {
 std::map<std::string, unsigned> register_values(const Layout& layout);
 
 /// Draws the scene and waits until the machine is idle.
-void run(HostPort& host, const Prepared& prepared, const lib::IgcPrograms& programs);
+void run(HostPort& host, const Prepared& prepared, const lib::IgcPrograms& programs, const lib::ArraySite& site);
 
 }  // namespace dendro::raster_primitives

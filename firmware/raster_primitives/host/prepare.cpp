@@ -62,6 +62,12 @@ Shape smooth(const scene::Mesh& mesh, const scene::Placement& place) {
   return shape;
 }
 
+/// Pixels that spheres may reach over: the array's, or the picture's on a machine that draws in tiles.
+int largest_side(const scene::Scene& scene, const ArraySite& site) {
+  const int array = std::max(site.width, site.height);
+  return site.draws_tiles() ? std::max({2 * array, scene.image.width, scene.image.height}) : array;
+}
+
 class Preparation {
  public:
   Preparation(const scene::Scene& scene, const ArraySite& site)
@@ -82,6 +88,10 @@ class Preparation {
     digits_ = static_cast<int>(options_.integer("sphere_digits", 2, 1, 6));
     read_spheres();
     shadows_ = options_.choice("shadows", "none", {"none", "facing", "all"});
+    const std::string kind = options_.choice("texture", "checker", {"checker", "wood"});
+    const auto seed = static_cast<std::uint64_t>(options_.integer("texture_seed", 1, 0, INT32_MAX));
+    p_.mappings = read_mappings(options_, scene.objects.size());
+    if (read_texture_bits(options_) > 0) p_.texture = make_texture(kind, p_.layout.texture_bits, seed);
     options_.finish();
     if (scene.objects.empty() && balls_.empty())
       throw UserError(scene_.file, 0, "object", "the scene has no object and no sphere");
@@ -100,16 +110,81 @@ class Preparation {
     for (const ScreenSphere& sphere : p_.spheres)
       p_.sphere_set_up.push_back(dendro::raster_primitives::set_up(sphere, digits_, p_.rules));
     for (const ScreenTriangle& triangle : p_.triangles) {
-      const auto made = dendro::raster_primitives::set_up(triangle.corners, p_.rules);
+      const auto made = set_up(triangle, triangle.corners);
       p_.without_area += !made;
       if (!made) continue;
       p_.flat += made->flat;
       p_.set_up.push_back(*made);
     }
+    add_tiles();
     return std::move(p_);
   }
 
  private:
+  std::optional<TriangleSetup> set_up(const ScreenTriangle& triangle, const std::array<ScreenVertex, 3>& corners) const {
+    auto made = dendro::raster_primitives::set_up(corners, p_.rules);
+    if (made && p_.is_textured(triangle)) made->texel = set_up_texture(corners, p_.rules);
+    return made;
+  }
+
+  void add_tiles() {
+    for (const lib::Tile& tile : lib::tiles_of(p_.width, p_.height, site_)) {
+      TileDrawing drawing;
+      drawing.tile = tile;
+      if (site_.draws_tiles()) {
+        fill(drawing);
+      } else {
+        drawing.triangles = p_.set_up, drawing.spheres = p_.sphere_set_up, drawing.shadows = p_.shadows;
+      }
+      for (const TriangleSetup& triangle : drawing.triangles) drawing.texels = drawing.texels || triangle.texel;
+      p_.tiles.push_back(std::move(drawing));
+    }
+  }
+
+  /// A pixel more on all sides: corners are moved to the grid.
+  bool meets(const lib::Tile& tile, double left, double top, double right, double bottom) const {
+    return tile.meets(left - 1, top - 1, right + 1, bottom + 1, site_);
+  }
+
+  void fill(TileDrawing& drawing) const {
+    const lib::Tile& tile = drawing.tile;
+    for (const ScreenTriangle& triangle : p_.triangles) {
+      const auto& [a, b, c] = triangle.corners;
+      const auto [left, right] = std::minmax({a.x, b.x, c.x});
+      const auto [top, bottom] = std::minmax({a.y, b.y, c.y});
+      if (!meets(tile, left, top, right, bottom)) continue;
+      check_reach(triangle, std::max({tile.x0 - left, tile.y0 - top, right - tile.x0, bottom - tile.y0}));
+      std::array<ScreenVertex, 3> corners = triangle.corners;
+      for (ScreenVertex& corner : corners) corner.x -= tile.x0, corner.y -= tile.y0;
+      if (const auto made = set_up(triangle, corners)) drawing.triangles.push_back(*made);
+    }
+    for (ScreenSphere sphere : p_.spheres) {
+      if (!meets(tile, sphere.x - sphere.radius, sphere.y - sphere.radius, sphere.x + sphere.radius, sphere.y + sphere.radius))
+        continue;
+      sphere.x -= tile.x0, sphere.y -= tile.y0;
+      drawing.spheres.push_back(dendro::raster_primitives::set_up(sphere, digits_, p_.rules));
+    }
+    for (std::array<glm::dvec3, 3> caster : p_.casters) {
+      if (!shadow_meets(tile, caster)) continue;
+      for (glm::dvec3& corner : caster) corner.x -= tile.x0, corner.y -= tile.y0;
+      if (const auto shadow = set_up_shadow(caster, p_.light, p_.rules)) drawing.shadows.push_back(*shadow);
+    }
+  }
+
+  /// The caster and where the light carries its corners until nothing lies farther.
+  bool shadow_meets(const lib::Tile& tile, const std::array<glm::dvec3, 3>& caster) const {
+    if (!(p_.light.z > 0)) return true;
+    double left = INFINITY, top = INFINITY, right = -INFINITY, bottom = -INFINITY;
+    for (const glm::dvec3& corner : caster) {
+      const double way = std::max(0.0, (p_.farthest - corner.z) / p_.light.z);
+      for (const double t : {0.0, way}) {
+        const double x = corner.x + t * p_.light.x, y = corner.y + t * p_.light.y;
+        left = std::min(left, x), right = std::max(right, x), top = std::min(top, y), bottom = std::max(bottom, y);
+      }
+    }
+    return meets(tile, left, top, right, bottom);
+  }
+
   static std::array<double, 3> to_bytes(const std::vector<double>& colour) {
     return {std::round(255 * colour[0]), std::round(255 * colour[1]), std::round(255 * colour[2])};
   }
@@ -173,6 +248,7 @@ class Preparation {
       const glm::dvec3 s = view(shape.corners[k]);
       vertices.push_back({s.x, s.y, p_.depth_scale * s.z + p_.depth_shift, shader_(shape.normals[k], colour)});
     }
+    if (const auto at = p_.mappings.find(number); at != p_.mappings.end()) map(shape, at->second, vertices);
     p_.vertex_flops += shape.corners.size() * (kFlopsTransformVertex + kFlopsRotateNormal + kFlopsShadeVertex);
     p_.vertex_flops += shape.triangles.size() * kFlopsFacing;
     p_.given += shape.triangles.size();
@@ -182,6 +258,16 @@ class Preparation {
       const glm::dvec3 normal = glm::cross(shape.corners[t[1]] - shape.corners[t[0]], shape.corners[t[2]] - shape.corners[t[0]]);
       if (shadows_ == "all" || glm::dot(normal, shader_.to_light()) > 0) cast({&vertices[t[0]], &vertices[t[1]], &vertices[t[2]]});
     }
+  }
+
+  void map(const Shape& shape, const Mapping& mapping, std::vector<ScreenVertex>& vertices) {
+    for (std::size_t k = 0; k < vertices.size(); ++k) {
+      const glm::dvec2 at = mapping(shape.corners[k]) * static_cast<double>(p_.texture.side());
+      if (!(std::abs(at.x) <= kFarthestTexel && std::abs(at.y) <= kFarthestTexel))
+        options_.fail("textured", fmt::format("a corner lies farther than {:g} texels from the origin", kFarthestTexel));
+      vertices[k].u = at.x, vertices[k].v = at.y;
+    }
+    p_.vertex_flops += vertices.size() * kFlopsMapVertex;
   }
 
   void cast(const std::array<const ScreenVertex*, 3>& corners) {
@@ -210,7 +296,7 @@ class Preparation {
     if (s.x + sphere.radius < -0.5 || s.y + sphere.radius < -0.5 || s.x - sphere.radius > p_.width - 0.5 ||
         s.y - sphere.radius > p_.height - 0.5)
       return;
-    const double side = std::max(site_.width, site_.height);
+    const double side = largest_side(scene_, site_);
     if (sphere.radius > side || std::min(s.x, s.y) < -side / 2 || std::max(s.x, s.y) > 1.5 * side)
       options_.fail("spheres", fmt::format("sphere {} is too large for the numbers in a pixel, or its centre too far outside",
                                            p_.spheres_given));
@@ -231,15 +317,18 @@ class Preparation {
       ++p_.outside;
       return;
     }
-    const double most = farthest_corner(p_.rules);
-    if (std::max({-left, -top, right, bottom}) > most) {
-      const scene::Object& object = scene_.objects[triangle.object];
-      throw UserError(object.source_where.file, object.source_where.line, "object.mesh",
-                      fmt::format("a triangle that is in the picture reaches beyond {:g} pixels from its corner, where its "
-                                  "edges are not exact: cut it into smaller ones",
-                                  most));
-    }
+    check_reach(triangle, std::max({-left, -top, right, bottom}));
     p_.triangles.push_back(triangle);
+  }
+
+  void check_reach(const ScreenTriangle& triangle, double reach) const {
+    const double most = farthest_corner(p_.rules);
+    if (reach <= most) return;
+    const scene::Object& object = scene_.objects[triangle.object];
+    throw UserError(object.source_where.file, object.source_where.line, "object.mesh",
+                    fmt::format("a triangle that is in the picture reaches beyond {:g} pixels from its corner, where its "
+                                "edges are not exact: cut it into smaller ones",
+                                most));
   }
 
   const scene::Scene& scene_;
@@ -261,10 +350,11 @@ class Preparation {
 Layout choose_layout(const scene::Scene& scene, const ArraySite& site) {
   scene::Options options = scene.options;
   Layout layout(static_cast<unsigned>(options.integer("depth_bits", 16, 12, 24)));
-  if (!options.vectors("spheres", 7).empty()) layout.square_bits = square_bits_for(site.width, site.height);
+  if (!options.vectors("spheres", 7).empty()) layout.square_bits = square_bits_for(largest_side(scene, site), 1);
   layout.shadows = options.choice("shadows", "none", {"none", "facing", "all"}) != "none";
+  if (const unsigned bits = read_texture_bits(options); bits > 0) layout.place_texture(bits);
   if (layout.used() > static_cast<unsigned>(site.memory_bits))
-    options.fail("depth_bits", fmt::format("the picture takes {} bits of a pixel; its memory has {}", layout.used(),
+    options.fail(layout.texture_bits > 0 ? "texture_size" : "depth_bits", fmt::format("the picture takes {} bits of a pixel; its memory has {}", layout.used(),
                                            site.memory_bits));
   return layout;
 }

@@ -13,9 +13,6 @@ namespace {
 
 using base::uniform;
 
-constexpr double kPi = 3.14159265358979323846, kDegree = kPi / 180;
-constexpr double kGoldenAngle = 2.39996322972865332;
-constexpr glm::dvec3 kUp(0, 1, 0);
 constexpr int kDeepestOrder = 3, kBetweenWhorls = 3, kFirstBranches = 3;
 /// Radius of a shoot of one year, and its growth a year; the leader's is thicker. ASSUMED DEV-160
 constexpr double kTwigRadius = 0.0015, kTwigYear = 0.0011, kLeaderYear = 0.0034;
@@ -46,8 +43,7 @@ class Fir {
 
  private:
   double leader_increment(int year) const {
-    const double square = double(year) * year;
-    return p_.increment * square / (square + p_.establishment);
+    return leader_growth(p_.increment, p_.establishment, year);
   }
 
   void grow_leader(std::mt19937_64& random) {

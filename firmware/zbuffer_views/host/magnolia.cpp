@@ -13,9 +13,6 @@ namespace {
 
 using base::uniform;
 
-constexpr double kPi = 3.14159265358979323846, kDegree = kPi / 180;
-constexpr double kGoldenAngle = 2.39996322972865332;
-constexpr glm::dvec3 kUp(0, 1, 0);
 constexpr int kDeepestOrder = 3, kFirstBranches = 4;
 /// Radius of this year's shoot, and its growth a year. ASSUMED DEV-161
 constexpr double kTwigRadius = 0.004, kTwigYear = 0.0022, kLeaderYear = 0.0045;
@@ -44,8 +41,7 @@ class Magnolia {
 
  private:
   double leader_increment(int year) const {
-    const double square = double(year) * year;
-    return p_.increment * square / (square + p_.establishment);
+    return leader_growth(p_.increment, p_.establishment, year);
   }
 
   static double radius_of(int years, double yearly) { return kTwigRadius + yearly * years; }

@@ -6,12 +6,6 @@
 #include "sim/base/check.h"
 
 namespace dendro::zbuffer_views {
-namespace {
-
-constexpr double kPi = 3.14159265358979323846;
-
-}  // namespace
-
 Across::Across(const glm::dvec3& along) {
   const glm::dvec3 other = std::abs(along.y) < 0.9 ? glm::dvec3(0, 1, 0) : glm::dvec3(0, 0, 1);
   a = glm::normalize(glm::cross(other, along));

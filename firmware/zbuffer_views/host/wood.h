@@ -7,6 +7,16 @@
 
 namespace dendro::zbuffer_views {
 
+constexpr double kPi = 3.14159265358979323846, kDegree = kPi / 180;
+constexpr double kGoldenAngle = 2.39996322972865332;
+constexpr glm::dvec3 kUp(0, 1, 0);
+
+/// A leader's growth in its year `year`, from 1: it tends to `increment` the later the greater `establishment` is.
+constexpr double leader_growth(double increment, double establishment, int year) {
+  const double square = double(year) * year;
+  return increment * square / (square + establishment);
+}
+
 struct WoodNode {
   glm::dvec3 at{};
   double radius = 0;

@@ -19,7 +19,7 @@ class Log : public Pipeline::Listener {
     if (options_.retired != nullptr) options_.retired->push_back(word);
     if (options_.machine.word_clocks == nullptr) return;
     WordClocks& clocks = (*options_.machine.word_clocks)[word.pc];
-    ++clocks.times;
+    clocks.times += !word.killed;
     clocks.clocks += word.clock + 1 - then;
   }
 

@@ -59,12 +59,19 @@ TEST(MipsPrograms, AnEndlessProgramEndsAtItsLimit) {
 
 TEST(MipsPrograms, TheJsonOfARunHasNoTimeAtFunction) {
   const std::string json = scratch() + "/run.json";
-  const Ran ran = run(model(elf("hello"), "", "--json " + json) + " </dev/null");
+  const Ran ran = run(model(elf("hello"), "", "--level function --json " + json) + " </dev/null");
   ASSERT_EQ(0, ran.status) << ran.errors;
   const std::string text = read_file(json);
   for (const char* part : {"\"machine\": \"sgi-4d35\"", "\"level\": \"function\"", "\"cycles\": null",
                            "\"clock_hz\": 36000000", "\"exit_code\": 0"})
     EXPECT_NE(std::string::npos, text.find(part)) << part << "\n" << text;
+}
+
+TEST(MipsPrograms, AProfileAtCycleNamesTheFunctionsAndTheCauses) {
+  const Ran ran = run(std::string(DENDRO) + " exec sgi-4d35 " + elf("integers") + " --level cycle --profile </dev/null");
+  ASSERT_EQ(0, ran.status) << ran.errors;
+  for (const char* part : {"cycles per instruction", "base", "data misses", "  main\n", "  (monitor)\n"})
+    EXPECT_NE(std::string::npos, ran.errors.find(part)) << part << "\n" << ran.errors;
 }
 
 TEST(MipsPrograms, AnImpossibleMachineIsRefused) {
@@ -80,7 +87,7 @@ TEST(MipsPrograms, CommandsThatCannotDriveTheMachineSaySo) {
   const std::string dendro = DENDRO;
   for (const std::string& command :
        {dendro + " run icosahedron --machine sgi-4d35", dendro + " levels icosahedron --machine sgi-4d35",
-        model(elf("hello"), "", "--level cycle"), model(elf("hello"), "", "--dump 0"),
+        model(elf("hello"), "", "--dump 0"),
         dendro + " record --exec sgi-4d35 " + elf("hello") + " --boundary sgi_4d35.memory --out " +
             scratch() + "/t"}) {
     const Ran ran = run(command + " </dev/null");

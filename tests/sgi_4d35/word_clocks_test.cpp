@@ -1,0 +1,59 @@
+#include <gtest/gtest.h>
+
+#include "models/machines/sgi_4d35/cycle.h"
+#include "tests/sgi_4d35/random_program.h"
+#include "tests/sgi_4d35/timing_rig.h"
+
+namespace dendro::sgi_4d35 {
+namespace {
+
+/// Goes on at marks, stops at anything else.
+struct Marks : service_block::Services {
+  service_block::CallResult call(std::uint32_t number, const std::array<std::uint32_t, 4>&,
+                                 std::vector<std::uint8_t>&) override {
+    return {0, false, number < DENDRO_MARK_START || number > DENDRO_MARK_LABEL};
+  }
+};
+
+TEST(Sgi4d35WordClocks, AddUpToTheRunAndCountEveryCompletedWord) {
+  for (std::uint32_t seed = 1; seed <= 30; ++seed) {
+    const Spec spec = random_spec(seed);
+    const ProgramImage image = image_of(random_program(seed, 200, 3), kCode + 0x800);
+    Marks services;
+    std::map<std::uint32_t, WordClocks> words;
+    RunOptions options;
+    options.machine.word_clocks = &words;
+    const ProgramResult result = run_cycle(spec, image, services, 20000, options);
+    std::uint64_t clocks = 0, times = 0;
+    for (const auto& [address, word] : words) clocks += word.clocks, times += word.times;
+    EXPECT_EQ(static_cast<std::uint64_t>(result.cycles), clocks) << "seed " << seed;
+    EXPECT_EQ(result.instructions, times) << "seed " << seed;
+  }
+}
+
+TEST(Sgi4d35Marks, HaveTheClocksBeforeTheirStore) {
+  const auto call = [](std::uint32_t number) { return or_immediate(kT1, 0, static_cast<int>(number)); };
+  const ProgramImage image =
+      image_of({{kCode,
+                 {high(kT0, 0xBF00), or_immediate(kT2, 0, 7), store(kT2, kT0, DENDRO_SERVICE_ARGUMENT),
+                  call(DENDRO_MARK_START), store(kT1, kT0), kNop, kNop, call(DENDRO_MARK_STOP), store(kT1, kT0),
+                  store(kNop, kT0), kNop, kNop, kNop}}},
+               kCode);
+  Marks services;
+  std::vector<Retired> retired;
+  RunOptions options;
+  options.retired = &retired;
+  const ProgramResult result = run_cycle(small(), image, services, 1000, options);
+  ASSERT_TRUE(result.stopped);
+  ASSERT_EQ(2u, result.marks.size());
+  EXPECT_EQ(unsigned{DENDRO_MARK_START}, result.marks[0].number);
+  EXPECT_EQ(7u, result.marks[0].label);
+  EXPECT_EQ(4u, result.marks[0].instructions);
+  EXPECT_EQ(unsigned{DENDRO_MARK_STOP}, result.marks[1].number);
+  EXPECT_EQ(8u, result.marks[1].instructions);
+  for (const ProgramMark& mark : result.marks)
+    EXPECT_EQ(static_cast<std::int64_t>(retired[mark.instructions].clock), mark.cycles);
+}
+
+}  // namespace
+}  // namespace dendro::sgi_4d35
