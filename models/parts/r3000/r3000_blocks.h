@@ -1,15 +1,18 @@
 #pragma once
 
 #include "models/parts/r3000/r3000.h"
+#include "models/parts/r3010/r3010_timing.h"
 
 /// The fast way through what programs mostly do. Blocks hold no word that can change translation, what interrupts may
 /// do, or code; a step that would fault, wait for a device or find no mapping leaves everything as it was, and
 /// run_plain() does the word.
 namespace dendro::r3000 {
 
-/// The block at word `index` of the page, or nullptr: not all that it would fetch is in the instruction cache.
+/// The block at word `index` of the page, or nullptr: that is behind the page, or not all that the block would fetch is
+/// in the instruction cache.
 template <class Port, class Timing>
 Block* Core<Port, Timing>::block_at(CodePage& page, unsigned index) {
+  if (index >= kPageWords) return nullptr;
   std::unique_ptr<Block>& block = page.blocks[index];
   if (!block) block = std::make_unique<Block>(make_block(page.words.data(), index));
   if constexpr (kTimed) {
