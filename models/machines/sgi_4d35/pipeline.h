@@ -78,6 +78,13 @@ class Pipeline {
     if (good) fpu_.issue(issue, then);
     return stalled(stall_fp_, now, then);
   }
+  /// The same for good words of the kind that Scoreboard::take() is made for.
+  template <r3010::Unit kUnit, unsigned kReads, unsigned kWrites>
+  std::uint64_t fp_take(std::uint64_t now, const Issue& issue) {
+    const std::uint64_t then = fpu_.take<kUnit, kReads, kWrites>(issue, now);
+    in_alu_ = {&issue, then, true};
+    return stalled(stall_fp_, now, then);
+  }
   std::uint64_t fp_register(std::uint64_t now, unsigned reg) {
     return stalled(stall_fp_, now, fpu_.when_register(reg, now));
   }

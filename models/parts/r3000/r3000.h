@@ -75,12 +75,14 @@ class Core {
     std::vector<typename Timing::Issue> issues;
     std::array<std::unique_ptr<Block>, kPageWords> blocks;  ///< by their first word, made when asked for
   };
+  /// Of nothing: no page, whatever low bits of an address are looked at beside it.
+  static constexpr std::uint32_t kNoTag = ~0u;
   struct FetchMapping {
-    std::uint32_t tag = 1, physical = 0;
+    std::uint32_t tag = kNoTag, physical = 0;
     CodePage* page = nullptr;
   };
   struct Mapping {
-    std::uint32_t tag = 1;          ///< page of the virtual address; 1: none
+    std::uint32_t tag = kNoTag;     ///< page of the virtual address
     std::uint32_t physical = 0;     ///< its address
     std::uint8_t* bytes = nullptr;  ///< of its page
   };

@@ -1,15 +1,18 @@
 #pragma once
 
 #include "models/parts/r3000/r3000.h"
+#include "models/parts/r3010/r3010_timing.h"
 
 /// The fast way through what programs mostly do. Blocks hold no word that can change translation, what interrupts may
 /// do, or code; a step that would fault, wait for a device or find no mapping leaves everything as it was, and
 /// run_plain() does the word.
 namespace dendro::r3000 {
 
-/// The block at word `index` of the page, or nullptr: not all that it would fetch is in the instruction cache.
+/// The block at word `index` of the page, or nullptr: that is behind the page, or not all that the block would fetch is
+/// in the instruction cache.
 template <class Port, class Timing>
 Block* Core<Port, Timing>::block_at(CodePage& page, unsigned index) {
+  if (index >= kPageWords) return nullptr;
   std::unique_ptr<Block>& block = page.blocks[index];
   if (!block) block = std::make_unique<Block>(make_block(page.words.data(), index));
   if constexpr (kTimed) {
@@ -74,10 +77,11 @@ std::uint64_t Core<Port, Timing>::run_blocks(const std::uint64_t budget) {
   std::uint32_t target = 0;
   unsigned at = 0;
 
-  const auto stall = [&](const auto& cycles) {
+#define DENDRO_INLINE __attribute__((always_inline))
+  const auto stall = [&](const auto& cycles) DENDRO_INLINE {
     if constexpr (kFast) clock += cycles(time_, clock + step->at);
   };
-  const auto wait_in_memory = [&] {
+  const auto wait_in_memory = [&] DENDRO_INLINE {
     if constexpr (kFast) {
       const std::uint64_t now = clock + step->at + 1;
       clock += time_.memory(now) - now;
@@ -85,7 +89,7 @@ std::uint64_t Core<Port, Timing>::run_blocks(const std::uint64_t budget) {
       time_.no_memory();
     }
   };
-  const auto find = [&](bool taken, unsigned index) {
+  const auto find = [&](bool taken, unsigned index) DENDRO_INLINE {
     next = block->next[taken];
     if (__builtin_expect(next != nullptr && (!kTimed || next->checked == generation), 1)) return true;
     next = block_at(*code, index);
@@ -104,11 +108,13 @@ std::uint64_t Core<Port, Timing>::run_blocks(const std::uint64_t budget) {
     next = block_at(*next_code, address >> 2 & (kPageWords - 1));
     return next != nullptr;
   };
-  const auto ended = [&] {
+  const auto ended = [&] DENDRO_INLINE {
     left -= block->words;
     if constexpr (kFast) clock += block->words + block->first - next->first;
     if constexpr (kTimed) time_.count_nop(block->nops);
   };
+
+#undef DENDRO_INLINE
 
 #define DENDRO_DISPATCH goto* kHandlers[static_cast<unsigned>(step->op)]
 #define DENDRO_NEXT \
@@ -264,31 +270,34 @@ do_Mflo:
   stall([](auto& time, std::uint64_t now) { return time.multiplier(now); });
   DENDRO_NEXT;
 
-#define DENDRO_FP(name, done)                            \
-  do_##name : if (!quick || !(done)) goto slow;          \
-  stall([&](auto& time, std::uint64_t now) { return time.fp_issue(now, code->issues[d.at], true); }); \
+// Unit, operands and results as in Issue: one bit each, two for a double.
+#define DENDRO_FP(name, unit, reads, writes, done)                                                         \
+  do_##name : if (!quick || !(done)) goto slow;                                                            \
+  stall([&](auto& time, std::uint64_t now) {                                                               \
+    return time.template fp_take<r3010::Unit::unit, reads, writes>(now, code->issues[d.at]);               \
+  });                                                                                                      \
   DENDRO_NEXT;
-#define DENDRO_FP3(name, operation)                                                                      \
-  DENDRO_FP(name##S, quick_.template single<r3010::operation>(s_.fpu, d.rd, d.rs, d.rt, d.imm))          \
-  DENDRO_FP(name##D, quick_.template twice<r3010::operation>(s_.fpu, d.rd, d.rs, d.rt, d.imm))
-  DENDRO_FP3(Add, kAdd)
-  DENDRO_FP3(Sub, kSub)
-  DENDRO_FP3(Mul, kMul)
-  DENDRO_FP3(Div, kDiv)
+#define DENDRO_FP3(name, unit, operation)                                                                          \
+  DENDRO_FP(name##S, unit, 0b0101, 0b01, quick_.template single<r3010::operation>(s_.fpu, d.rd, d.rs, d.rt, d.imm)) \
+  DENDRO_FP(name##D, unit, 0b1111, 0b11, quick_.template twice<r3010::operation>(s_.fpu, d.rd, d.rs, d.rt, d.imm))
+  DENDRO_FP3(Add, kAdder, kAdd)
+  DENDRO_FP3(Sub, kAdder, kSub)
+  DENDRO_FP3(Mul, kMultiplier, kMul)
+  DENDRO_FP3(Div, kDivider, kDiv)
 #undef DENDRO_FP3
-  DENDRO_FP(CvtDS, quick_.single_to_double(s_.fpu, d.rd, d.rs, d.imm))
-  DENDRO_FP(CvtSD, quick_.double_to_single(s_.fpu, d.rd, d.rs, d.imm))
-  DENDRO_FP(CvtSW, quick_.word_to_single(s_.fpu, d.rd, d.rs, d.imm))
-  DENDRO_FP(CvtDW, quick_.word_to_double(s_.fpu, d.rd, d.rs, d.imm))
-  DENDRO_FP(CompareS, quick_.template compare<float>(s_.fpu, d.rs, d.rt, d.imm))
-  DENDRO_FP(CompareD, quick_.template compare<double>(s_.fpu, d.rs, d.rt, d.imm))
-  DENDRO_FP(NegS, quick_.sign_single(s_.fpu, d.rd, d.rs, true))
-  DENDRO_FP(AbsS, quick_.sign_single(s_.fpu, d.rd, d.rs, false))
-  DENDRO_FP(NegD, quick_.sign_double(s_.fpu, d.rd, d.rs, true))
-  DENDRO_FP(AbsD, quick_.sign_double(s_.fpu, d.rd, d.rs, false))
-  DENDRO_FP(MovS, (f[d.rd] = f[d.rs], true))
-  DENDRO_FP(MovD, (f[d.rd] = f[d.rs], f[d.rd + 1] = f[d.rs + 1], true))
-  DENDRO_FP(Fp, false)
+  DENDRO_FP(CvtDS, kAdder, 0b0001, 0b11, quick_.single_to_double(s_.fpu, d.rd, d.rs, d.imm))
+  DENDRO_FP(CvtSD, kAdder, 0b0011, 0b01, quick_.double_to_single(s_.fpu, d.rd, d.rs, d.imm))
+  DENDRO_FP(CvtSW, kAdder, 0b0001, 0b01, quick_.word_to_single(s_.fpu, d.rd, d.rs, d.imm))
+  DENDRO_FP(CvtDW, kAdder, 0b0001, 0b11, quick_.word_to_double(s_.fpu, d.rd, d.rs, d.imm))
+  DENDRO_FP(CompareS, kAdder, 0b0101, 0b01, quick_.template compare<float>(s_.fpu, d.rs, d.rt, d.imm))
+  DENDRO_FP(CompareD, kAdder, 0b1111, 0b01, quick_.template compare<double>(s_.fpu, d.rs, d.rt, d.imm))
+  DENDRO_FP(NegS, kAdder, 0b0001, 0b01, quick_.sign_single(s_.fpu, d.rd, d.rs, true))
+  DENDRO_FP(AbsS, kAdder, 0b0001, 0b01, quick_.sign_single(s_.fpu, d.rd, d.rs, false))
+  DENDRO_FP(NegD, kAdder, 0b0011, 0b11, quick_.sign_double(s_.fpu, d.rd, d.rs, true))
+  DENDRO_FP(AbsD, kAdder, 0b0011, 0b11, quick_.sign_double(s_.fpu, d.rd, d.rs, false))
+  DENDRO_FP(MovS, kAdder, 0b0001, 0b01, (f[d.rd] = f[d.rs], true))
+  DENDRO_FP(MovD, kAdder, 0b0011, 0b11, (f[d.rd] = f[d.rs], f[d.rd + 1] = f[d.rs + 1], true))
+do_Fp:
 slow:
   if (!slow_fp(d.imm)) goto bail;
   quick = r3010::Quick::suits(s_.fpu);
