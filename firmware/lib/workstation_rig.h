@@ -5,6 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "sim/scene/scene.h"
+
 namespace dendro::stability {
 
 /// Files by name, as programs of a workstation read and write them.
@@ -14,6 +16,9 @@ using Files = std::map<std::string, std::vector<std::uint8_t>>;
 class WorkstationRig {
  public:
   virtual ~WorkstationRig() = default;
+
+  /// A built-in scene with `key=value` settings.
+  virtual scene::Scene scene(const std::string& name, const std::vector<std::string>& settings) const = 0;
 
   /// The bytes of a program that ships with dendro.
   virtual std::string program_bytes(const std::string& program) const = 0;

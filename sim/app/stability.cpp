@@ -23,12 +23,15 @@ void write_folder(study::RunFolder& folder, const std::vector<stability::Result>
   folder.write("stability.json", study::stability_json(results));
   folder.write("stability.csv", study::stability_csv(results));
   folder.write("summary.txt", study::stability_text(results));
-  for (const stability::Result& result : results)
+  for (const stability::Result& result : results) {
     for (const stability::Curve& curve : result.curves) {
       folder.write(curve.name + ".csv", study::curve_csv(curve));
       if (!curve.y_label.empty())
         folder.writing([&] { study::write_curve_picture(curve, folder.work() + "/" + curve.name + ".png"); });
     }
+    for (const stability::Picture& picture : result.pictures)
+      folder.writing([&] { scene::write_png(folder.work() + "/" + picture.name + ".png", picture.image); });
+  }
   folder.commit();
 }
 

@@ -16,6 +16,7 @@
 #include "sim/study/algorithms.h"
 #include "sim/study/igc_programs.h"
 #include "sim/study/run.h"
+#include "sim/study/scene_file.h"
 #include "sim/study/stability_tree.h"
 #include "sim/study/worker.h"
 #include "sim/study/workstation.h"
@@ -33,7 +34,8 @@ using Json = nlohmann::json;
 class CatalogueRig : public stability::Rig, public stability::WorkstationRig {
  public:
   CatalogueRig(const Catalogue& catalogue, const StabilitySuite& suite)
-      : preset_(config::load_preset(suite.machine, catalogue.presets(), {"--machine", 0})),
+      : catalogue_(catalogue),
+        preset_(config::load_preset(suite.machine, catalogue.presets(), {"--machine", 0})),
         type_(catalogue.machine(preset_.machine)) {
     DENDRO_CHECK(type_ != nullptr, "{}", suite.machine);
     set(suite.parameters);
@@ -77,6 +79,10 @@ class CatalogueRig : public stability::Rig, public stability::WorkstationRig {
     inspect(view);
   }
 
+  scene::Scene scene(const std::string& name, const std::vector<std::string>& settings) const override {
+    return load_scene(name, settings, catalogue_).scene;
+  }
+
   std::string program_bytes(const std::string& program) const override { return shipped_program(program); }
 
   std::string exec_bytes(const std::string& program, const std::string& bytes, const std::vector<std::string>& arguments,
@@ -91,6 +97,7 @@ class CatalogueRig : public stability::Rig, public stability::WorkstationRig {
     for (const auto& [key, value] : parameters) preset_.parameters.set(key, value, {"stability", 0});
   }
 
+  const Catalogue& catalogue_;
   config::Preset preset_;
   const MachineType* type_;
 };
@@ -235,6 +242,7 @@ void write_curve_picture(const Curve& curve, const std::string& path) {
   chart.x.label = curve.columns.front();
   chart.y.label = curve.y_label;
   chart.y.logarithmic = curve.logarithmic;
+  if (curve.reach > 0) chart.y.high = curve.reach;
   for (std::size_t c = 1; c < curve.columns.size(); ++c) {
     scene::ChartSeries series{curve.columns[c], {}, {}};
     for (const auto& row : curve.rows) {
@@ -249,12 +257,14 @@ void write_curve_picture(const Curve& curve, const std::string& path) {
 }
 
 std::string to_bytes(const Result& result) {
-  Json json = {{"rows", Json::array()}, {"curves", Json::array()}};
+  Json json = {{"rows", Json::array()}, {"curves", Json::array()}, {"pictures", Json::array()}};
   for (const Row& r : result.rows)
     json["rows"].push_back(
         {r.case_id, r.what, r.measured, r.bound, r.unit, r.reference, static_cast<int>(r.kind), r.where});
   for (const Curve& c : result.curves)
-    json["curves"].push_back({c.name, c.title, c.columns, c.rows, c.logarithmic, c.y_label});
+    json["curves"].push_back({c.name, c.title, c.columns, c.rows, c.logarithmic, c.y_label, c.reach});
+  for (const stability::Picture& p : result.pictures)
+    json["pictures"].push_back({p.name, p.image.width, p.image.height, Json::binary(p.image.rgb)});
   const auto cbor = Json::to_cbor(json);
   return std::string(cbor.begin(), cbor.end());
 }
@@ -269,7 +279,10 @@ Result result_from_bytes(const std::string& bytes) {
   for (const Json& c : json.at("curves"))
     result.curves.push_back(
         {c[0].get<std::string>(), c[1].get<std::string>(), c[2].get<std::vector<std::string>>(),
-         c[3].get<std::vector<std::vector<double>>>(), c[4].get<bool>(), c[5].get<std::string>()});
+         c[3].get<std::vector<std::vector<double>>>(), c[4].get<bool>(), c[5].get<std::string>(),
+         c[6].get<double>()});
+  for (const Json& p : json.at("pictures"))
+    result.pictures.push_back({p[0].get<std::string>(), {p[1].get<int>(), p[2].get<int>(), p[3].get_binary()}});
   return result;
 }
 

@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cstddef>
 #include <cstring>
 
@@ -11,7 +12,7 @@
 #include "sim/study/algorithms.h"
 #include "sim/study/stability.h"
 
-// N-B1 to N-B8 on programs with one fault each, the smallest that the case is there to find.
+// The cases of the workstation on programs with one fault each, the smallest that the case is there to find.
 
 namespace dendro::study {
 namespace {
@@ -86,6 +87,26 @@ const Fault kFaults[] = {
      [](Files& files) { change_views(files["from"], [](ViewsFile& v) { v.views[0].x0 += v.facts.pitch / 2; }); }},
 };
 
+/// Of views of several layers the first is not looked at.
+void lose_first_layer(Files& files) {
+  change_views(files["views"], [](ViewsFile& v) {
+    if (v.facts.layers == 1) return;
+    for (auto& view : v.layers) std::fill(view[0].z.begin(), view[0].z.end(), kZbvEmptyDepth);
+  });
+}
+
+/// Another set of views: what the camera's two sides of an exchange have in common is gone.
+void swap_neighbours(Files& files) {
+  change_views(files["views"], [](ViewsFile& v) {
+    if (v.facts.layers > 1) std::swap(v.layers[1], v.layers[2]);
+  });
+}
+
+const Fault kDearFaults[] = {
+    {"B15", "FirstLayerLost", "zbuffer_views_reconstruct", "2 layers: pixels of the tree", nullptr, lose_first_layer},
+    {"B16", "NeighboursSwapped", "zbuffer_views_reconstruct", "3 layers: that change", nullptr, swap_neighbours},
+};
+
 class FaultyProgram : public stability::Rig, public stability::WorkstationRig {
  public:
   FaultyProgram(const stability::Rig& sound, const Fault& fault)
@@ -103,6 +124,9 @@ class FaultyProgram : public stability::Rig, public stability::WorkstationRig {
     sound_.run(host_program, inspect);
   }
 
+  scene::Scene scene(const std::string& name, const std::vector<std::string>& settings) const override {
+    return workstation_.scene(name, settings);
+  }
   std::string program_bytes(const std::string& program) const override { return workstation_.program_bytes(program); }
   std::string exec_bytes(const std::string& program, const std::string& bytes, const std::vector<std::string>& arguments,
                          Files& files) const override {
@@ -150,9 +174,14 @@ TEST_P(FaultyPrograms, TheRowThatMeasuresTheFaultFailsAndSaysWhereItCan) {
   EXPECT_TRUE(failed) << stability_text(results);
 }
 
-INSTANTIATE_TEST_SUITE_P(Cases, FaultyPrograms, ::testing::ValuesIn(kFaults), [](const auto& tested) {
-  return "NB" + std::string(tested.param.id).substr(3) + tested.param.name;
-});
+std::string name_of(const ::testing::TestParamInfo<Fault>& tested) {
+  std::string name = std::string(tested.param.id) + tested.param.name;
+  name.erase(std::remove(name.begin(), name.end(), '-'), name.end());
+  return name;
+}
+
+INSTANTIATE_TEST_SUITE_P(Cases, FaultyPrograms, ::testing::ValuesIn(kFaults), name_of);
+INSTANTIATE_TEST_SUITE_P(LongCases, FaultyPrograms, ::testing::ValuesIn(kDearFaults), name_of);
 
 }  // namespace
 }  // namespace dendro::study

@@ -12,6 +12,8 @@ std::vector<stability::Case> stability_cases() {
       {"N-B6", "samples exactly on half pixels", half_pixels},
       {"N-B7", "perspective: distances at the eye, behind it and at `near`", near_eye},
       {"N-B8", "threshold of shadows on planes tilted to the light, and under another one", shadow_threshold},
+      {"B15", "holes and flicker of the turning magnolia with 1, 2 and 3 layers", turn_glitches},
+      {"B16", "the jump of its picture when other views are taken", view_exchanges},
   };
 }
 

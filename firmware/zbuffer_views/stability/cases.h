@@ -18,5 +18,7 @@ stability::Result normal_bytes(const stability::Rig& rig, std::uint64_t seed);  
 stability::Result half_pixels(const stability::Rig& rig, std::uint64_t seed);   // N-B6
 stability::Result near_eye(const stability::Rig& rig, std::uint64_t seed);      // N-B7
 stability::Result shadow_threshold(const stability::Rig& rig, std::uint64_t seed);  // N-B8
+stability::Result turn_glitches(const stability::Rig& rig, std::uint64_t seed);    // B15
+stability::Result view_exchanges(const stability::Rig& rig, std::uint64_t seed);   // B16
 
 }  // namespace dendro::zbuffer_views
