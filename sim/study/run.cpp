@@ -245,7 +245,9 @@ void run_programs(const RunRequest& request, ProgramJob& job, const std::string&
   for (const UnitStats& u : workstation.units())
     if (request.level != Level::kFunction) object.units.push_back({u.unit, u.values});
   const double ticks = object.cycles > 0 ? static_cast<double>(object.cycles) : static_cast<double>(object.instructions);
-  object.host = host_info(ticks, object.clock_hz, seconds);
+  // The speed is that of the programs that count; what is made without time before them takes the host's time only.
+  object.host = host_info(ticks, object.clock_hz, workstation.host_seconds());
+  object.host.seconds = seconds;
   object.facts = job.facts();
   // Counters of a run without time have no `cycles` that they would add up to.
   for (const UnitStats& u : workstation.units())
