@@ -135,7 +135,7 @@ void fill_films(const TableContext& context, std::vector<TableRow>& rows) {
     return mo95_precompute_seconds(run) == 0 ? 0 : mo95_cycles_an_instruction(run);
   });
   cpi.note = beside(cpi, 1.2, 1.6) +
-             "; precomputing and one frame of B6b, full of multiplications and divisions; " +
+             "; precomputing and one frame of B6b; " +
              mo95_stalls(three.nominal);
 }
 
