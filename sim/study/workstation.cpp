@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <chrono>
 #include <filesystem>
 #include <fstream>
 
@@ -67,10 +68,12 @@ ElfWorkstation::ElfWorkstation(const RunRequest& request, const ProgramJob& job,
 void ElfWorkstation::run(const std::string& program, const std::vector<std::string>& arguments, bool timed) {
   if (progress_ != nullptr) progress_->phase(program);
   MemoryServices services(files_);
+  const auto start = std::chrono::steady_clock::now();
   const ProgramResult result = run_elf(*request_.type, request_.preset.parameters, timed ? request_.level : Level::kFunction,
                                        request_.options, program, shipped_program(program), arguments, services);
   clock_hz_ = result.clock_hz;
   if (timed) {
+    host_seconds_ += std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     instructions_ += result.instructions;
     add_units(units_, result.units);
     add(program, result, services.marks);

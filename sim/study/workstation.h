@@ -35,6 +35,7 @@ class ElfWorkstation : public Workstation {
 
   double clock_hz() const { return clock_hz_; }
   std::int64_t cycles() const { return cycles_; }
+  double host_seconds() const { return host_seconds_; }         ///< that the timed programs took on this computer
   std::uint64_t instructions() const { return instructions_; }  ///< of the timed programs
   const std::vector<Phase>& phases() const { return phases_; }  ///< "program.phase", each once, in the order of their first time
   const std::vector<UnitStats>& units() const { return units_; }
@@ -49,7 +50,7 @@ class ElfWorkstation : public Workstation {
   Progress* progress_;
   MemoryServices::Files files_;
   std::vector<std::string> pictures_;
-  double clock_hz_ = 0;
+  double clock_hz_ = 0, host_seconds_ = 0;
   std::int64_t cycles_ = 0;
   std::uint64_t instructions_ = 0;
   std::vector<Phase> phases_;
