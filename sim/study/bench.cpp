@@ -68,7 +68,7 @@ BenchRow best_of(const RunRequest& request, int repeats, Progress* progress) {
     best.simulated_hz = host.simulated_hz;
     best.real_time_factor = host.real_time_factor;
     best.ticks = static_cast<double>(run.cycles > 0 ? run.cycles : run.instructions);
-    best.host_seconds = request.with_picture ? host.seconds : best.ticks / host.simulated_hz;
+    best.host_seconds = host.seconds;
     best.peak_rss_bytes = host.peak_rss_bytes;
   }
   return best;
