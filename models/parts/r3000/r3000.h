@@ -61,8 +61,9 @@ class Core {
   Timing& time() { return time_; }
   /// Timed: after the last word, all that comes before the machine stops; time_.clock() is then the last clock.
   void settle();
-  /// Timed: from here on caches are kept up to date and nothing takes time, or no more so.
-  void warm(bool on) { warm_ = on; }
+  /// Timed: from here on caches are kept up to date and nothing takes time, or no more so. A word is then a clock, exceptions
+  /// are nothing, and the pipeline begins anew when time does.
+  void warm(bool on);
 
  private:
   static constexpr bool kTimed = Timing::kTimed;
