@@ -140,15 +140,20 @@ void Pipeline::in_memory(std::uint32_t pc, bool killed, bool refill, bool rfe) {
 
 void Pipeline::in_no_memory() { waits_[waiting_++] = {}; }
 
+/// By an isolated store with swapped caches.
+void Pipeline::change_instructions(const Event& swapped) {
+  ++fetch_generation_;
+  if (swapped.valid)
+    instruction_.store_word(swapped.address);
+  else
+    instruction_.invalidate(swapped.address);
+}
+
 /// The run clock in which the oldest word that waits leaves MEM.
 void Pipeline::run_clock(std::uint64_t clock) {
   if (swap_.kind == Event::kSwapped) {
     swap_.kind = Event::kNone;
-    ++fetch_generation_;
-    if (swap_.valid)
-      instruction_.store_word(swap_.address);
-    else
-      instruction_.invalidate(swap_.address);
+    change_instructions(swap_);
   }
   if (waiting_ == 0) return;
   Waiting oldest = waits_[0];

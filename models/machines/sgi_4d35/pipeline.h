@@ -112,7 +112,11 @@ class Pipeline {
     }
     return event_.kind == Event::kNone ? now : memory_slowly(now);
   }
-  void no_memory() { event_.kind = Event::kNone; }
+  /// As if it went on at once.
+  void no_memory() {
+    if (__builtin_expect(event_.kind == Event::kSwapped, 0)) change_instructions(event_);
+    event_.kind = Event::kNone;
+  }
   void put_off() {
     put_off_ = event_;
     event_.kind = Event::kNone;
@@ -159,6 +163,7 @@ class Pipeline {
     bus_.delay_newest(now, then);
     return then - now;
   }
+  void change_instructions(const Event& swapped);
   void miss(std::uint32_t address);
   template <class Look>
   std::uint64_t wait_in_fetch(std::uint64_t now, const Look& look);

@@ -63,8 +63,9 @@ class Core {
   void settle();
   /// Timed: the end of the last word's step, its wait in MEM with it, is put off until the next has executed.
   bool puts_off() const { return deferred_; }
-  /// Timed: from here on caches are kept up to date and nothing takes time, or no more so.
-  void warm(bool on) { warm_ = on; }
+  /// Timed: from here on caches are kept up to date and nothing takes time, or no more so. A word is then a clock, exceptions
+  /// are nothing, and the pipeline begins anew when time does.
+  void warm(bool on);
 
  private:
   static constexpr bool kTimed = Timing::kTimed;

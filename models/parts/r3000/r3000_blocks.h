@@ -323,7 +323,10 @@ leave:
     time_.count_nop(count_nops(code->words.data(), block->first, at));
     time_.count_fetches(budget - left);
   }
-  if constexpr (kFast) time_.bias = clock + at;
+  if constexpr (kFast)
+    time_.bias = clock + at;
+  else if constexpr (kTimed)
+    time_.bias += budget - left;
   return left;
 }
 

@@ -17,14 +17,11 @@ std::uint64_t Core<Port, Timing>::run_to_service(std::uint64_t budget) {
     if constexpr (kTimed) lose_positions();
     if (interrupt_due(s_)) {
       fault_ = {};
-      if constexpr (kTimed) {
-        interrupted();
-        enter_exception(s_, fault_);
-        refetch_ = true;
-        continue;
-      }
+      if constexpr (kTimed)
+        if (!warm_) interrupted();
       enter_exception(s_, fault_);
       refetch_ = true;
+      if (kTimed && !warm_) continue;
     }
     if (s_.pending_reg != 0) {
       run_after_load();
@@ -344,8 +341,8 @@ std::uint64_t Core<Port, Timing>::run_plain(std::uint64_t budget) {
     } else {
       s_.pc = pc;
       s_.in_slot = branch_left == left + 1;
-      if constexpr (kTimed) {
-        if constexpr (kHurry) time_.uncount_fetch();
+      if constexpr (kHurry) time_.uncount_fetch();
+      if constexpr (kTimed && kPace != Pace::kWarm) {
         catch_up(left);
         finish_fault(pc, npc, fault_.refill, left);
       }
