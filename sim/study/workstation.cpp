@@ -55,8 +55,11 @@ void ElfWorkstation::run(const std::string& program, const std::vector<std::stri
   const auto limit = static_cast<std::uint64_t>(request_.options.tick_limit == 0 ? kDefaultTickLimit : request_.options.tick_limit);
   if (progress_ != nullptr) progress_->phase(program);
   MemoryServices services(files_);
-  const ProgramResult result = request_.type->exec(parameters, timed ? request_.level : Level::kFunction, image, services, limit,
-                                                   request_.options);
+  MachineOptions options = request_.options;
+  if (recorded_) options.recorder = nullptr;
+  recorded_ |= timed;
+  const ProgramResult result =
+      request_.type->exec(parameters, timed ? request_.level : Level::kFunction, image, services, limit, options);
   const std::string wrong = ending_error(services, result, elf, limit);
   if (!wrong.empty()) throw UserError(program, 0, "", wrong);
   if (services.exit_code.value_or(0) != 0) {

@@ -27,17 +27,18 @@ void ClockedCaches::take_read(const r3000_bus::Read& read) {
     return;
   }
   if (!instruction_spec_.streaming) instruction_tags_.validate_block(read.address);
-  if (instruction_tags_.block_of(fetch_.physical) == read.address) fetch_.missing = false;
+  if (!fetch_.asked && instruction_tags_.block_of(fetch_.physical) == read.address) fetch_.missing = false;
 }
 
 void ClockedCaches::end() {
-  if (const r3000_bus::Read* started = bus_.end())
-    if (started->cached && started->instruction && instruction_spec_.streaming)
-      instruction_tags_.validate_block(started->address);
+  const r3000_bus::Read* started = bus_.end();
+  if (started == nullptr || !started->cached || !started->instruction) return;
+  fetch_.asked = false;
+  if (instruction_spec_.streaming) instruction_tags_.validate_block(started->address);
 }
 
 bool ClockedCaches::fetch(std::uint32_t physical, bool cached, bool memory) {
-  fetch_ = {physical, cached, false, false};
+  fetch_ = {physical, cached, false, false, false};
   if (!cached) {
     bus_.ask({physical, 1, true, false, memory});
     return false;
@@ -46,6 +47,7 @@ bool ClockedCaches::fetch(std::uint32_t physical, bool cached, bool memory) {
   fetch_.missing = !instruction_tags_.holds(physical);
   if (!fetch_.missing) return false;
   ++counters_.instruction_misses;
+  fetch_.asked = true;
   bus_.ask({instruction_tags_.block_of(physical), instruction_spec_.refill_words, true, true, true});
   return true;
 }
@@ -57,12 +59,13 @@ bool ClockedCaches::streaming() const {
 }
 
 bool ClockedCaches::fetched() const {
+  if (fetch_.asked) return false;
   if (streaming()) return fetch_.cached && bus_.arrives(fetch_.physical);
   return fetch_.cached ? !fetch_.missing : fetch_.read_done;
 }
 
 bool ClockedCaches::load(std::uint32_t physical, bool cached, bool memory) {
-  data_ = {physical, cached, false, false};
+  data_ = {physical, cached, false, false, false};
   if (!cached) {
     bus_.ask({physical, 1, false, false, memory});
     return false;

@@ -52,6 +52,7 @@ class ClockedCaches {
   struct Waiting {
     std::uint32_t physical = 0;
     bool cached = false, missing = false, read_done = false;
+    bool asked = false;  ///< IF: its block has been asked for, and memory has not begun
   };
   bool streaming() const;
   void take_read(const r3000_bus::Read& read);

@@ -61,6 +61,8 @@ class Core {
   void settle();
   /// Timed: from here on caches are kept up to date and nothing takes time, or no more so.
   void warm(bool on) { warm_ = on; }
+  /// Timed: from here on word by word, until Timing allows to hurry again.
+  void go_carefully() { careful_ = true; }
 
  private:
   static constexpr bool kTimed = Timing::kTimed;
