@@ -12,6 +12,7 @@
 #include "models/parts/host/host_port.h"
 #include "models/parts/service_block/service_block.h"
 #include "sim/config/parameters.h"
+#include "sim/trace/plain_trace.h"
 #include "sim/trace/trace_file.h"
 #include "sim/trace/vcd.h"
 
@@ -156,6 +157,14 @@ struct ProgramResult {
   std::vector<UnitStats> units;
 };
 
+/// What a memory trace from elsewhere did.
+struct PlainReplay {
+  std::int64_t accesses = 0;
+  std::int64_t cycles = 0;  ///< to the clock in which the last access went on
+  std::vector<UnitStats> units;
+  std::vector<std::string> summary;  ///< the same for people
+};
+
 /// One entry of the list of machines.
 struct MachineType {
   std::string name;      ///< "rds3000"
@@ -175,6 +184,9 @@ struct MachineType {
   /// Drives one unit alone with a trace, whose boundary is among those above. Levels are cycle and clocked. Throws
   /// UserError for a trace that is wrong in itself. May elaborate SystemC.
   std::function<trace::ReplayResult(const config::ParameterSet&, Level, trace::Reader&)> replay;
+  /// The boundary that takes memory traces from elsewhere, and what drives it with one; empty: there is none.
+  std::string plain_boundary;
+  std::function<PlainReplay(const config::ParameterSet&, Level, trace::PlainReader&)> replay_plain;
 };
 
 }  // namespace dendro

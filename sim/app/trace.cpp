@@ -64,6 +64,8 @@ void print_trace(const study::Catalogue& catalogue, const std::string& path) {
 }
 
 int replay(const study::Catalogue& catalogue, const ReplayOptions& options) {
+  if (!options.replay.boundary.empty() && (options.print || !options.picture.empty()))
+    throw UserError("--boundary", 0, "", "--print and --picture are of traces that dendro has written");
   if (options.print && options.json == "-") throw UserError("--json", 0, "", "standard output has the trace of --print");
   study::OutputFile json(options.json);
   const study::ReplayOutput output = study::replay_trace(catalogue, options.replay);
@@ -75,6 +77,12 @@ int replay(const study::Catalogue& catalogue, const ReplayOptions& options) {
   if (output.result.difference) {
     fmt::print(stderr, "dendro: {}\n", *output.result.difference);
     return kComparisonFailed;
+  }
+  if (!options.quiet && !options.replay.boundary.empty() && options.json != "-") {
+    fmt::print("{} level {}: {} accesses in {} cycles\n", output.unit, output.level, output.result.transactions,
+               output.result.cycles);
+    for (const std::string& line : output.summary) fmt::print("  {}\n", line);
+    return kGood;
   }
   if (!options.quiet && !options.print && options.json != "-")
     fmt::print("{} level {}: {} transactions in {} cycles, no difference\n", output.unit, output.level,
@@ -107,6 +115,8 @@ void add_replay(CLI::App& app, const study::Catalogue& catalogue, Action& action
   const auto o = std::make_shared<ReplayOptions>();
   CLI::App* command = app.add_subcommand("replay", "drive one unit alone with a trace and check what it does");
   command->add_option("trace", o->replay.trace, "recorded or hand-written trace")->required();
+  command->add_option("--boundary", o->replay.boundary, "of a memory trace from elsewhere: sgi_4d35.processor")
+      ->check(some_text());
   command->add_option("--level", o->replay.level, "cycle or clocked");
   command->add_option("--set", o->replay.settings, "key=value of the machine")->allow_extra_args(false);
   command->add_option("--json", o->json, "also write the result here; - is standard output");

@@ -9,6 +9,7 @@
 #include "firmware/lib/rds3000/rds_driver.h"
 #include "firmware/tools/assembler.h"
 #include "firmware/tools/ucode.h"
+#include "sim/base/check.h"
 #include "sim/base/error.h"
 #include "sim/study/algorithms.h"
 #include "sim/study/exec_elf.h"
@@ -71,9 +72,7 @@ Prepared prepare(const Catalogue& catalogue, const ExecArguments& arguments) {
   Prepared p;
   p.preset = exec_preset(catalogue, arguments);
   p.type = catalogue.machine(p.preset.machine);
-  if (p.type->exec)
-    throw UserError(arguments.program, 0, "",
-                    p.type->name + " has no boundary to record yet; programs run by `dendro exec`");
+  DENDRO_CHECK(!p.type->exec, "{} runs ELF files", p.type->name);
   p.level = exec_level(arguments, *p.type);
   if (p.type->name == "pixel-planes") {
     p.igc.emplace(arguments, p.preset.parameters);

@@ -143,6 +143,19 @@ std::string ending_error(const CallServices& services, const ProgramResult& resu
                      program.place(result.pc), program.place(result.return_address - 8));
 }
 
+void record_elf(const Catalogue& catalogue, const ExecArguments& arguments) {
+  const config::Preset preset = exec_preset(catalogue, arguments);
+  const ElfProgram program = read_elf(config::read_text({false, arguments.program}, {}), arguments.program);
+  const ProgramImage image = place_program(program, arguments, main_bytes_of(preset.parameters));
+  const auto limit = static_cast<std::uint64_t>(
+      arguments.options.tick_limit == 0 ? kDefaultTickLimit : arguments.options.tick_limit);
+  HostServices services(false);
+  const ProgramResult result = catalogue.machine(preset.machine)
+                                   ->exec(preset.parameters, Level::kCycle, image, services, limit, arguments.options);
+  const std::string wrong = ending_error(services, result, program, limit);
+  if (!wrong.empty()) throw UserError(arguments.program, 0, "", wrong);
+}
+
 ExecOutput exec_elf(const Catalogue& catalogue, const ExecArguments& arguments) {
   const config::Preset preset = exec_preset(catalogue, arguments);
   const MachineType& type = *catalogue.machine(preset.machine);

@@ -10,6 +10,10 @@ namespace dendro::study {
 /// output.
 ExecOutput exec_elf(const Catalogue& catalogue, const ExecArguments& arguments);
 
+/// Runs the program at `cycle` for its effect on what `options` points to; what it prints is
+/// not shown. Throws UserError.
+void record_elf(const Catalogue& catalogue, const ExecArguments& arguments);
+
 /// The program, its monitor and its first stack in `main_bytes` of memory; `arguments` say its name and its arguments.
 /// Throws UserError.
 ProgramImage place_program(const ElfProgram& program, const ExecArguments& arguments, std::uint32_t main_bytes);

@@ -36,7 +36,8 @@ class CallServices : public service_block::Services {
 /// Carried out by this process: its own standard input and output, files by their host paths.
 class HostServices : public CallServices {
  public:
-  HostServices() = default;
+  /// `shows_output`: what the program writes to standard output appears.
+  explicit HostServices(bool shows_output = true) : shows_output_(shows_output) {}
   ~HostServices() override;
   HostServices(const HostServices&) = delete;
   HostServices& operator=(const HostServices&) = delete;
@@ -50,6 +51,7 @@ class HostServices : public CallServices {
   int host_file(std::uint32_t file) const;
 
   std::map<std::uint32_t, int> files_;  ///< the program's numbers from 3 on
+  const bool shows_output_;
 };
 
 /// Files in memory, by name. Standard input is empty; what goes to standard output and error is kept as text.

@@ -4,7 +4,9 @@
 
 #include <nlohmann/json.hpp>
 
+#include "sim/base/check.h"
 #include "sim/base/error.h"
+#include "sim/study/exec_elf.h"
 #include "sim/study/worker.h"
 
 namespace dendro::study {
@@ -24,13 +26,23 @@ std::string boundary_names(const MachineType& type) {
   return names.empty() ? "none" : names;
 }
 
+/// Of a machine whose programs are ELF files its processor's.
+double clock_of(const config::ParameterSet& parameters, const MachineType& type) {
+  if (!type.exec) return type.make(parameters, Level::kFunction, {})->clock_hz();
+  type.check(parameters, Level::kCycle);
+  const config::Parameter* clock = parameters.find("processor.clock_hz");
+  DENDRO_CHECK(clock != nullptr, "{} has no processor.clock_hz", type.name);
+  const auto* real = std::get_if<double>(&clock->value);
+  return real ? *real : static_cast<double>(std::get<std::int64_t>(clock->value));
+}
+
 trace::Header header_of(const config::Preset& preset, const MachineType& type, const RecordArguments& arguments) {
   trace::Header header;
   header.machine = preset.machine + ":" + preset.name;
   header.boundary = arguments.boundary;
   header.source = arguments.run.scene.empty() ? arguments.exec.program : arguments.run.scene;
   header.source = header.source.substr(header.source.rfind('/') + 1);
-  header.clock_hz = type.make(preset.parameters, Level::kFunction, {})->clock_hz();
+  header.clock_hz = clock_of(preset.parameters, type);
   header.from = arguments.from;
   for (const config::Parameter& parameter : preset.parameters.all())
     header.parameters.push_back({parameter.key, config::to_entry(parameter), 0});
@@ -41,6 +53,15 @@ void apply(config::ParameterSet& parameters, const std::string& key, const std::
   const config::Node value = config::parse_setting(text);
   if (value.kind != config::Node::Kind::kValue) throw UserError(where.file, where.line, key, "a parameter is one value");
   parameters.set(key, value.value, where);
+}
+
+/// What the command line sets.
+void apply_all(config::ParameterSet& parameters, const std::vector<std::string>& settings) {
+  for (const std::string& setting : settings) {
+    auto [key, text] = config::split_setting(setting);
+    if (key.compare(0, 11, "parameters.") == 0) key = key.substr(11);
+    apply(parameters, key, text, {"--set", 0});
+  }
 }
 
 config::Parameter parameter_of(const trace::HeaderSetting& line, const std::string& file) {
@@ -77,11 +98,7 @@ config::ParameterSet parameters_of(const Catalogue& catalogue, const trace::Read
   if (header.parameters.empty())
     parameters = config::load_preset(header.machine, catalogue.presets(), {trace.name(), header.machine_line}).parameters;
   for (const trace::HeaderSetting& line : header.settings) apply(parameters, line.key, line.text, {trace.name(), line.line});
-  for (const std::string& setting : settings) {
-    auto [key, text] = config::split_setting(setting);
-    if (key.compare(0, 11, "parameters.") == 0) key = key.substr(11);
-    apply(parameters, key, text, {"--set", 0});
-  }
+  apply_all(parameters, settings);
   return parameters;
 }
 
@@ -117,7 +134,10 @@ Recorded record_trace(const Catalogue& catalogue, const RecordArguments& argumen
       execute(request, "", progress);
     } else {
       exec.options.recorder = &writer;
-      exec_here(catalogue, exec, progress);
+      if (type.exec)
+        record_elf(catalogue, exec);
+      else
+        exec_here(catalogue, exec, progress);
     }
     const std::string file = writer.file(header);
     return fmt::format("{}\n", writer.records()) + file;
@@ -141,12 +161,56 @@ std::unique_ptr<trace::Reader> open_trace(const Catalogue& catalogue, const std:
   return reader;
 }
 
-ReplayOutput replay_trace(const Catalogue& catalogue, const ReplayArguments& arguments) {
-  const auto trace = open_trace(catalogue, arguments.trace);
-  const MachineType& type = type_of(catalogue, *trace);
-  const Level level = level_of(arguments.level, type);
+namespace {
+
+constexpr const char* kMagic = "dendro-trace ";
+
+const MachineType& plain_type(const Catalogue& catalogue, const std::string& boundary) {
+  std::string known;
+  for (const MachineType& type : catalogue.machines) {
+    if (type.plain_boundary.empty()) continue;
+    if (type.plain_boundary == boundary) return type;
+    known += (known.empty() ? "" : ", ") + type.plain_boundary;
+  }
+  throw UserError("--boundary", 0, "",
+                  fmt::format("`{}` takes no memory trace from elsewhere; those that do: {}", boundary, known));
+}
+
+Level replay_level(const std::string& name, const MachineType& type) {
+  const Level level = level_of(name, type);
   if (level != Level::kCycle && level != Level::kClocked)
     throw UserError("--level", 0, "", "a trace says when things happen: replay it at cycle or clocked");
+  return level;
+}
+
+ReplayOutput replay_plain(const Catalogue& catalogue, const ReplayArguments& arguments, std::string bytes) {
+  const MachineType& type = plain_type(catalogue, arguments.boundary);
+  const Level level = replay_level(arguments.level, type);
+  config::Preset preset = config::load_preset(type.name, catalogue.presets(), {});
+  apply_all(preset.parameters, arguments.settings);
+  if (type.check) type.check(preset.parameters, level);
+  trace::PlainReader reader(std::move(bytes), arguments.trace);
+  const PlainReplay replay = type.replay_plain(preset.parameters, level, reader);
+  ReplayOutput output{arguments.boundary, preset.machine + ":" + preset.name, arguments.level, {}, {}, {}};
+  output.result.transactions = replay.accesses;
+  output.result.cycles = replay.cycles;
+  output.units = replay.units;
+  output.summary = replay.summary;
+  return output;
+}
+
+}  // namespace
+
+ReplayOutput replay_trace(const Catalogue& catalogue, const ReplayArguments& arguments) {
+  if (!arguments.boundary.empty()) {
+    std::string bytes = config::read_text({false, arguments.trace}, {});
+    if (bytes.rfind(kMagic, 0) == 0)
+      throw UserError("--boundary", 0, "", arguments.trace + " is a trace of dendro, which says its boundary itself");
+    return replay_plain(catalogue, arguments, std::move(bytes));
+  }
+  const auto trace = open_trace(catalogue, arguments.trace);
+  const MachineType& type = type_of(catalogue, *trace);
+  const Level level = replay_level(arguments.level, type);
   const config::ParameterSet parameters = parameters_of(catalogue, *trace, arguments.settings);
   if (type.check)
     type.check(parameters, level);
@@ -158,7 +222,7 @@ ReplayOutput replay_trace(const Catalogue& catalogue, const ReplayArguments& arg
     if (result.difference) reply["difference"] = *result.difference;
     return reply.dump();
   }));
-  ReplayOutput output{trace->header().boundary, trace->header().machine, arguments.level, {}};
+  ReplayOutput output{trace->header().boundary, trace->header().machine, arguments.level, {}, {}, {}};
   output.result.transactions = json.at("transactions").get<std::int64_t>();
   output.result.cycles = json.at("cycles").get<std::int64_t>();
   if (json.contains("difference")) output.result.difference = json.at("difference").get<std::string>();
@@ -176,6 +240,8 @@ std::string replay_json(const ReplayOutput& output) {
   json["differences"] = output.result.difference ? 1 : 0;
   json["first_difference"] = output.result.difference ? Json(*output.result.difference) : Json(nullptr);
   json["cycles"] = output.result.cycles;
+  for (const UnitStats& unit : output.units)
+    for (const auto& [name, value] : unit.values) json["units"][unit.unit][name] = value;
   return json.dump(1) + "\n";
 }
 

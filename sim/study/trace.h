@@ -33,11 +33,14 @@ struct ReplayArguments {
   std::string trace;  ///< path
   std::string level = "cycle";
   std::vector<std::string> settings;  ///< key=value on top of the trace's parameters
+  std::string boundary = {};  ///< of a memory trace from elsewhere; empty: a trace of dendro's, which says its own
 };
 
 struct ReplayOutput {
   std::string unit, machine, level;
   trace::ReplayResult result;
+  std::vector<UnitStats> units;      ///< of a memory trace from elsewhere
+  std::vector<std::string> summary;  ///< the same for people
 };
 
 /// Opens a trace and checks all of its records against its boundary. Throws UserError.

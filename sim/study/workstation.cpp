@@ -68,9 +68,11 @@ ElfWorkstation::ElfWorkstation(const RunRequest& request, const ProgramJob& job,
 void ElfWorkstation::run(const std::string& program, const std::vector<std::string>& arguments, bool timed) {
   if (progress_ != nullptr) progress_->phase(program);
   MemoryServices services(files_);
+  MachineOptions options = request_.options;
+  if (recorded_) options.recorder = nullptr;
+  recorded_ |= timed;
   const auto start = std::chrono::steady_clock::now();
-  const ProgramResult result = run_elf(*request_.type, request_.preset.parameters, timed ? request_.level : Level::kFunction,
-                                       request_.options, program, shipped_program(program), arguments, services);
+  const ProgramResult result = run_elf(*request_.type, request_.preset.parameters, timed ? request_.level : Level::kFunction, options, program, shipped_program(program), arguments, services);
   clock_hz_ = result.clock_hz;
   if (timed) {
     host_seconds_ += std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();

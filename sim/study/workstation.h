@@ -50,6 +50,7 @@ class ElfWorkstation : public Workstation {
   Progress* progress_;
   MemoryServices::Files files_;
   std::vector<std::string> pictures_;
+  bool recorded_ = false;  ///< a trace is of the first timed program
   double clock_hz_ = 0;
   std::int64_t cycles_ = 0;
   std::uint64_t instructions_ = 0;

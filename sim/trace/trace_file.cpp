@@ -111,7 +111,8 @@ Reader::~Reader() = default;
 void Reader::fail(int line, const std::string& message) const { throw UserError(name_, line, "", message); }
 
 void Reader::read_header() {
-  if (!starts_with(bytes_, kMagic)) fail(0, "is no trace: it does not begin with `dendro-trace 1`");
+  if (!starts_with(bytes_, kMagic))
+    fail(0, "is no trace: it does not begin with `dendro-trace 1` (a memory trace from elsewhere needs --boundary)");
   const std::size_t first = std::min(bytes_.find('\n'), bytes_.size());
   const std::int64_t version = number_of(std::string_view(bytes_).substr(kMagic.size(), first - kMagic.size()));
   if (version < 1) fail(1, "is no trace: its first line has no version");

@@ -9,6 +9,7 @@
 
 #include "models/machines/pixel_planes/pixel_planes.h"
 #include "models/machines/rds3000/rds3000.h"
+#include "models/machines/sgi_4d35/sgi_4d35.h"
 #include "sim/base/error.h"
 #include "sim/study/trace.h"
 
@@ -16,7 +17,7 @@
 namespace dendro::study {
 namespace {
 
-constexpr const char* kMachines[] = {"pixel_planes", "rds3000"};
+constexpr const char* kMachines[] = {"pixel_planes", "rds3000", "sgi_4d35"};
 
 /// `file`: from the folder of all traces on, as "rds3000/nested-loop.txt".
 struct Entry {
@@ -24,7 +25,9 @@ struct Entry {
   bool repeat = false;
 };
 
-Catalogue catalogue() { return {{rds3000::rds3000_type(), pixel_planes::pixel_planes_type()}, algorithms(), SHARE}; }
+Catalogue catalogue() {
+  return {{rds3000::rds3000_type(), pixel_planes::pixel_planes_type(), sgi_4d35::sgi_4d35_type()}, algorithms(), SHARE};
+}
 
 std::string path_of(const std::string& file) { return std::string(TRACES) + "/" + file; }
 
@@ -72,7 +75,7 @@ TEST(Manifest, ListsEveryTraceOfItsFolderAndNoOther) {
     if (ending == ".trace" || ending == ".txt") there.insert(entry.path().lexically_relative(TRACES).string());
   }
   EXPECT_EQ(listed, there);
-  EXPECT_GE(hand_written().size(), 16u);
+  EXPECT_GE(hand_written().size(), 34u);
 }
 
 class EveryTrace : public ::testing::TestWithParam<std::string> {};
@@ -205,6 +208,10 @@ TEST(WhatIf, AnotherMachineDiffersFromTheTraceAndSaysWhere) {
   EXPECT_NE(std::string::npos, difference("rds3000/waits-for-data.txt", "processor.accesses_in_flight=0").find("waits-for-data.txt:15:"));
   EXPECT_NE(std::string::npos, difference("rds3000/writes-to-one-card.txt", "frame_memory.card_busy_ticks=3").find("writes-to-one-card.txt:7:"));
   EXPECT_NE(std::string::npos, difference("rds3000/dma-pace.txt", "host.dma_start_ms=2.0").find("dma-pace.txt:8:"));
+  EXPECT_NE(std::string::npos, difference("sgi_4d35/writes-in-a-page.txt", "memory.page_write_cycles=4").find("writes-in-a-page.txt:7:"));
+  EXPECT_NE(std::string::npos, difference("sgi_4d35/a-full-buffer-waits.txt", "write_buffer.entries=5").find("a-full-buffer-waits.txt:10:"));
+  EXPECT_NE(std::string::npos, difference("sgi_4d35/conflicts.txt", "data_cache.size_bytes=131072").find("conflicts.txt:8:"));
+  EXPECT_NE(std::string::npos, difference("sgi_4d35/streaming.txt", "instruction_cache.streaming=false").find("streaming.txt:8:"));
   EXPECT_NE(std::string::npos, difference("pixel_planes/a-command-is-taken.txt", "translator.setup_clocks=5").find("a-command-is-taken.txt:19:"));
   EXPECT_NE(std::string::npos, difference("pixel_planes/a-full-fifo-stalls.txt", "fifo.depth_words=9").find("a-full-fifo-stalls.txt:25:"));
   EXPECT_NE(std::string::npos, difference("pixel_planes/two-ports-add.txt", "array.ports=1").find("two-ports-add.txt:22:"));

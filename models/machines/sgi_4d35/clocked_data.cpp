@@ -37,9 +37,8 @@ ClockedCause ClockedPipeline::look_at_mem() {
   if (!m.live) return kHolds;
   if (!m.faulting && (is_load(m.d.op) || is_store(m.d.op))) {
     if (!m.in_mem) begin_access(m);
-    if (m.missing) return ClockedCause::kDataMiss;
     if (!m.faulting && is_load(m.d.op) && !m.isolated) {
-      if (!m.cached && !m.read_done) return ClockedCause::kUncached;
+      if (!caches_.loaded()) return m.cached ? ClockedCause::kDataMiss : ClockedCause::kUncached;
       if (m.memory) {
         take_word(m, board_.word(m.data_physical));
       } else {
@@ -53,7 +52,7 @@ ClockedCause ClockedPipeline::look_at_mem() {
         --m.partial_left;
         return ClockedCause::kPartialStore;
       }
-      if (!bus_.entry_free()) return ClockedCause::kWriteBuffer;
+      if (!caches_.entry_free()) return ClockedCause::kWriteBuffer;
       store(m);
     }
   }
@@ -80,24 +79,13 @@ void ClockedPipeline::begin_access(ClockedSlot& m) {
   m.isolated = state_.status & r3000::kStatusIsc;
   m.memory = board_.in_memory(m.data_physical);
   m.cached = m.memory && !uncached(state_, m.address);
-  counters_.data_accesses += m.cached;
+  if (m.cached) caches_.count_data();
   if (m.isolated)
     take_word(m, 0);
   else if (access == r3000::Access::kLoad)
-    begin_load(m);
+    caches_.load(m.data_physical, m.cached, m.memory);
   else
     begin_store(m);
-}
-
-void ClockedPipeline::begin_load(ClockedSlot& m) {
-  if (!m.cached) {
-    bus_.ask({m.data_physical, 1, false, false, m.memory});
-    return;
-  }
-  m.missing = !data_tags_.holds(m.data_physical);
-  if (!m.missing) return;
-  ++counters_.data_misses;
-  bus_.ask({data_tags_.block_of(m.data_physical), spec_.data_cache.refill_words, false, true, true});
 }
 
 void ClockedPipeline::begin_store(ClockedSlot& m) {
@@ -108,7 +96,7 @@ void ClockedPipeline::begin_store(ClockedSlot& m) {
     return;
   }
   if (!m.cached) return;
-  counters_.data_misses += !data_tags_.holds(m.data_physical);
+  caches_.look_up_store(m.data_physical);
   if (is_partial(m.d.op) && spec_.data_cache.store_partial)
     m.partial_left = spec_.data_cache.partial_store_cycles;
 }
@@ -199,18 +187,10 @@ void ClockedPipeline::see_store(ClockedSlot& slot, std::uint32_t physical, bool 
 void ClockedPipeline::leave_store(const ClockedSlot& m) {
   if (!is_store(m.d.op)) return;
   const bool partial = is_partial(m.d.op);
-  if (m.isolated) {
-    if (!m.cached) return;
-    r3000_cache::ClockedTags& tags = state_.status & r3000::kStatusSwc ? instruction_tags_ : data_tags_;
-    partial ? tags.invalidate(m.data_physical) : tags.validate(m.data_physical);
-    return;
-  }
-  bus_.enter(m.data_physical, m.memory);
-  if (!m.cached) return;
-  if (!partial)
-    data_tags_.validate(m.data_physical);
-  else if (!spec_.data_cache.store_partial)
-    data_tags_.invalidate(m.data_physical);
+  if (!m.isolated)
+    caches_.store(m.data_physical, partial, m.cached, m.memory);
+  else if (m.cached)
+    caches_.isolated_store(m.data_physical, partial, state_.status & r3000::kStatusSwc);
 }
 
 }  // namespace dendro::sgi_4d35

@@ -44,23 +44,12 @@ ClockedCause ClockedPipeline::look_at_if() {
   if (empty_ != 0) return kHolds;
   if (!fetch_.begun) begin_fetch();
   if (fetch_.faulting) return kHolds;
-  bool there;
-  if (streaming())
-    there = fetch_.cached && bus_.arrives(fetch_.physical);
-  else
-    there = fetch_.cached ? !fetch_.missing : fetch_.read_done;
-  if (!there) return ClockedCause::kInstructionMiss;
+  if (!caches_.fetched()) return ClockedCause::kInstructionMiss;
   if (!fetch_.memory) {
     fetch_.faulting = true;
     fetch_.fault.code = r3000::kIbe;
   }
   return kHolds;
-}
-
-/// A block for the instruction cache comes in and is used on the way.
-bool ClockedPipeline::streaming() const {
-  const r3000_bus::Read* read = bus_.reading();
-  return spec_.instruction_cache.streaming && read != nullptr && read->instruction && read->cached;
 }
 
 void ClockedPipeline::begin_fetch() {
@@ -87,15 +76,7 @@ void ClockedPipeline::begin_fetch() {
   if (f.faulting) return;
   f.memory = board_.in_memory(f.physical);
   f.cached = f.memory && !past_caches;
-  if (!f.cached) {
-    bus_.ask({f.physical, 1, true, false, f.memory});
-    return;
-  }
-  ++counters_.instruction_accesses;
-  f.missing = !instruction_tags_.holds(f.physical);
-  if (!f.missing) return;
-  ++counters_.instruction_misses;
-  bus_.ask({instruction_tags_.block_of(f.physical), spec_.instruction_cache.refill_words, true, true, true});
+  caches_.fetch(f.physical, f.cached, f.memory);
 }
 
 /// The word in MEM faults: it and the two younger ones are killed, the handler comes behind empty positions.

@@ -19,9 +19,7 @@ ClockedPipeline::ClockedPipeline(const Spec& spec, Board& board, std::uint32_t s
       limit_(limit),
       next_fetch_(start),
       units_(spec.fpu),
-      instruction_tags_(spec.instruction_cache),
-      data_tags_(spec.data_cache),
-      bus_(spec.bus) {
+      caches_(spec) {
   state_.pc = start;
   state_.next_pc = start + 4;
   state_.status = 0;
@@ -31,8 +29,7 @@ ClockedPipeline::ClockedPipeline(const Spec& spec, Board& board, std::uint32_t s
 void ClockedPipeline::look() {
   units_.begin();
   multiplier_left_ -= multiplier_left_ != 0;
-  bus_.begin();
-  if (const r3000_bus::Read* read = bus_.ended()) take_read(*read);
+  caches_.begin();
   wait_ = look_at_stages();
 }
 
@@ -48,27 +45,9 @@ ClockedCause ClockedPipeline::look_at_stages() {
 void ClockedPipeline::move() {
   cause_ = wait_ == kHolds ? run() : wait_;
   count(cause_);
-  if (const r3000_bus::Read* started = bus_.end())
-    if (started->cached && started->instruction && spec_.instruction_cache.streaming)
-      instruction_tags_.validate_block(started->address);
+  caches_.end();
   ++clock_;
   if (stopping_) finish();
-}
-
-/// The last word of a read is there.
-void ClockedPipeline::take_read(const r3000_bus::Read& read) {
-  if (!read.instruction) {
-    if (read.cached) data_tags_.validate_block(read.address);
-    mem_->missing = false;
-    mem_->read_done = true;
-    return;
-  }
-  if (!read.cached) {
-    fetch_.read_done = true;
-    return;
-  }
-  if (!spec_.instruction_cache.streaming) instruction_tags_.validate_block(read.address);
-  if (instruction_tags_.block_of(fetch_.physical) == read.address) fetch_.missing = false;
 }
 
 bool ClockedPipeline::last_word() const {
@@ -179,7 +158,12 @@ void ClockedPipeline::finish() {
 Counters ClockedPipeline::counters() const {
   Counters c = counters_;
   c.cycles = clock_;
-  c.memory = bus_.counters();
+  const Counters caches = caches_.counters();
+  c.instruction_accesses = caches.instruction_accesses;
+  c.instruction_misses = caches.instruction_misses;
+  c.data_accesses = caches.data_accesses;
+  c.data_misses = caches.data_misses;
+  c.memory = caches.memory;
   return c;
 }
 

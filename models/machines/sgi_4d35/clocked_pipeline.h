@@ -4,9 +4,8 @@
 #include <vector>
 
 #include "models/machines/sgi_4d35/board.h"
+#include "models/machines/sgi_4d35/clocked_caches.h"
 #include "models/machines/sgi_4d35/sgi_4d35.h"
-#include "models/parts/r3000_bus/clocked_bus.h"
-#include "models/parts/r3000_cache/clocked_tags.h"
 #include "models/parts/r3010/clocked_units.h"
 
 namespace dendro::sgi_4d35 {
@@ -48,7 +47,7 @@ struct ClockedSlot {
   bool in_mem = false;  ///< MEM has looked at it
   std::uint32_t address = 0, data_physical = 0;
   bool isolated = false, cached = false, memory = false;
-  bool missing = false, read_done = false, stored = false;
+  bool stored = false;
   unsigned partial_left = 0;
 };
 
@@ -59,7 +58,6 @@ struct ClockedFetch {
   bool faulting = false;
   r3000::Fault fault;
   bool cached = false, memory = false;
-  bool missing = false, read_done = false;
 };
 
 /// R3000A, R3010A, caches, write buffer and memory, a clock at a time. In each clock the stages are looked at
@@ -91,7 +89,8 @@ class ClockedPipeline {
   const ClockedSlot& wb() const { return *wb_; }
   std::uint64_t position() const { return position_; }  ///< of the word in IF
   const r3010::ClockedUnits& units() const { return units_; }
-  const r3000_bus::ClockedBus& bus() const { return bus_; }
+  const ClockedCaches& caches() const { return caches_; }
+  const r3000_bus::ClockedBus& bus() const { return caches_.bus(); }
   unsigned multiplier_left() const { return multiplier_left_; }
   bool runs() const { return wait_ == kHolds; }      ///< a run clock
   ClockedCause stalled_by() const { return wait_; }  ///< if it is none
@@ -99,7 +98,6 @@ class ClockedPipeline {
  private:
   // clocked_pipeline.cpp
   ClockedCause look_at_stages();
-  void take_read(const r3000_bus::Read& read);
   bool last_word() const;
   ClockedCause run();
   ClockedCause leave_mem();
@@ -112,7 +110,6 @@ class ClockedPipeline {
   // clocked_fetch.cpp
   ClockedCause look_at_if();
   void begin_fetch();
-  bool streaming() const;
   r3000::State ahead() const;
   void take_exception(ClockedSlot& m);
 
@@ -132,7 +129,6 @@ class ClockedPipeline {
   // clocked_data.cpp
   ClockedCause look_at_mem();
   void begin_access(ClockedSlot& m);
-  void begin_load(ClockedSlot& m);
   void begin_store(ClockedSlot& m);
   void take_word(ClockedSlot& m, std::uint32_t word) const;
   void store(ClockedSlot& m);
@@ -153,8 +149,7 @@ class ClockedPipeline {
   bool behind_branch_ = false;  ///< the word that left MEM last was a branch
   unsigned multiplier_left_ = 0;
   r3010::ClockedUnits units_;
-  r3000_cache::ClockedTags instruction_tags_, data_tags_;
-  r3000_bus::ClockedBus bus_;
+  ClockedCaches caches_;
 
   std::uint64_t clock_ = 0, counted_ = 0;
   ClockedCause wait_ = kHolds, cause_ = kHolds;

@@ -65,7 +65,7 @@ void ClockedVcd::during(std::uint64_t n) {
   const ClockedFetch& fetch = pipeline_.fetch();
   writer_.set(if_asks_, fetch.begun);
   if (fetch.begun) writer_.set(if_pc_, fetch.pc);
-  writer_.set(if_missing_, fetch.missing);
+  writer_.set(if_missing_, fetch.begun && pipeline_.caches().fetch_missing());
   const ClockedSlot* const stages[kStages] = {&pipeline_.rd(), &pipeline_.alu(), &pipeline_.mem(),
                                               &pipeline_.wb()};
   for (unsigned i = 0; i < kStages; ++i) {

@@ -37,17 +37,27 @@ void Pipeline::isolated_write(std::uint32_t address, unsigned size, bool swapped
     data_.invalidate(address);
 }
 
+/// IF looks at its word again in clock `now`; what it is told changes only if it missed the clock it was told before.
+template <class Told>
+std::uint64_t Pipeline::look_again(const Told& look, std::uint64_t now) {
+  const std::uint64_t then = look(now);
+  if (looks_[looked_ - 1].there < now) looks_[looked_++] = {now, then};
+  return then;
+}
+
 /// IF looks at a word in clock `now` and would go on in `look(now)`. What stands in ALU issues only in the run clock:
 /// where another unit rounds in between, ALU holds up IF, which then may miss the clock of its word.
-template <class Look>
-std::uint64_t Pipeline::wait_in_fetch(std::uint64_t now, const Look& look) {
+template <class Told>
+std::uint64_t Pipeline::wait_in_fetch(std::uint64_t now, const Told& look) {
   std::uint64_t then = look(now);
+  looks_[0] = {now, then};
+  looked_ = 1;
   if (then == now) return now;
   if (in_alu_.issue != nullptr && in_alu_.clock == now) {
     for (then = now;; ++then) {
       if (fpu_.when_still(*in_alu_.issue, then) != then)
         ++stall_fp_;
-      else if (look(then) != then)
+      else if (look_again(look, then) != then)
         ++stall_instruction_miss_;
       else
         break;
@@ -85,11 +95,15 @@ std::uint64_t Pipeline::fetch(std::uint32_t address, std::uint64_t now, bool war
     }
   }
   return wait_in_fetch(now, [&](std::uint64_t clock) {
-    if (!streaming(clock)) return std::max(clock, end);
-    const std::uint64_t there = stream_start_ + spec_.bus.first_word_cycles +
-                                std::uint64_t{(address - block) / 4 + 1} * spec_.bus.word_cycles;
-    return block == stream_block_ && clock <= there ? there : stream_end_;
+    return streaming(clock) ? streamed(address, clock) : std::max(clock, end);
   });
+}
+
+std::uint64_t Pipeline::streamed(std::uint32_t address, std::uint64_t now) const {
+  const std::uint32_t block = instruction_.block_of(address);
+  const std::uint64_t there = stream_start_ + spec_.bus.first_word_cycles +
+                              std::uint64_t{(address - block) / 4 + 1} * spec_.bus.word_cycles;
+  return block == stream_block_ && now <= there ? there : stream_end_;
 }
 
 std::uint64_t Pipeline::fetch_uncached(std::uint32_t address, std::uint64_t now) {

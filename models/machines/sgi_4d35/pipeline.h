@@ -139,7 +139,7 @@ class Pipeline {
   /// The last word leaves MEM.
   void finish();
 
- private:
+ protected:  // for who drives or watches caches, buffer and memory
   struct Event {
     enum Kind : std::uint8_t { kNone, kStore, kPartialStore, kBlockRead, kUncachedRead, kSwapped };
     Kind kind = kNone;
@@ -165,8 +165,12 @@ class Pipeline {
   }
   void change_instructions(const Event& swapped);
   void miss(std::uint32_t address);
-  template <class Look>
-  std::uint64_t wait_in_fetch(std::uint64_t now, const Look& look);
+  /// When a fetch that is looked at in clock `now` while a block streams in goes on.
+  std::uint64_t streamed(std::uint32_t address, std::uint64_t now) const;
+  template <class Told>
+  std::uint64_t look_again(const Told& look, std::uint64_t now);
+  template <class Told>
+  std::uint64_t wait_in_fetch(std::uint64_t now, const Told& look);
   void write_part(std::uint32_t address);
   std::uint64_t memory_slowly(std::uint64_t now);
 
@@ -182,6 +186,13 @@ class Pipeline {
   std::uint64_t multiplier_start_ = 0, multiplier_free_ = 0;
   std::uint64_t stream_start_ = 0, stream_end_ = 0;  ///< read of the instruction block at stream_block_
   std::uint32_t stream_block_ = 0, fetch_generation_ = 1;
+  /// The clocks in which IF looked at the word of the last fetch and when it then was to be there: more than one where
+  /// ALU held it up in the clock in which it was.
+  struct Look {
+    std::uint64_t now = 0, there = 0;
+  };
+  Look looks_[4];
+  unsigned looked_ = 0;
   Waiting waits_[4];
   unsigned waiting_ = 0, notes_ = 0;
   Listener* listener_ = nullptr;

@@ -1,9 +1,11 @@
 #include "models/machines/sgi_4d35/sgi_4d35.h"
 
+#include "models/machines/sgi_4d35/boundaries.h"
 #include "models/machines/sgi_4d35/clocked.h"
 #include "models/machines/sgi_4d35/cycle.h"
 #include "models/machines/sgi_4d35/estimate.h"
 #include "models/machines/sgi_4d35/function.h"
+#include "models/machines/sgi_4d35/recorder.h"
 #include "sim/base/error.h"
 
 namespace dendro::sgi_4d35 {
@@ -121,10 +123,20 @@ MachineType sgi_4d35_type() {
     const Spec spec = resolve(parameters);
     if (level == Level::kFunction) return run_function(spec, image, services, limit);
     if (level == Level::kEstimate) return run_estimate(spec, image, services, limit);
+    if (options.recorder != nullptr && level == Level::kCycle)
+      return run_recorded(spec, image, services, limit, *options.recorder);
     RunOptions run;
     run.machine = options;
     return level == Level::kCycle ? run_cycle(spec, image, services, limit, run)
                                   : run_clocked(spec, image, services, limit, run);
+  };
+  type.boundaries = boundaries();
+  type.replay = [](const config::ParameterSet& parameters, Level level, trace::Reader& trace) {
+    return replay(resolve(parameters), level, trace);
+  };
+  type.plain_boundary = kProcessorBoundary;
+  type.replay_plain = [](const config::ParameterSet& parameters, Level level, trace::PlainReader& trace) {
+    return replay_plain(resolve(parameters), level, trace);
   };
   return type;
 }

@@ -66,6 +66,8 @@ class Core {
   /// Timed: from here on caches are kept up to date and nothing takes time, or no more so. A word is then a clock, exceptions
   /// are nothing, and the pipeline begins anew when time does.
   void warm(bool on);
+  /// Timed: from here on word by word, until Timing allows to hurry again.
+  void go_carefully() { careful_ = true; }
 
  private:
   static constexpr bool kTimed = Timing::kTimed;

@@ -41,6 +41,16 @@ class ClockedBus {
   /// Starts what may start in this clock. The read that did, or nullptr.
   const Read* end();
 
+  /// Nothing is under way and nothing waits.
+  bool idle() const { return state_ == State::kFree && !waits_ && entries_.empty(); }
+  /// The oldest entry is being written.
+  bool writing() const { return state_ == State::kWriting; }
+  /// Before anything else: memory's last operation was at this address of main memory.
+  void open_page(std::uint32_t address) {
+    address_ = address;
+    page_open_ = true;
+  }
+
   const Counters& counters() const { return counters_; }
   std::size_t entries() const { return entries_.size(); }
   unsigned state_number() const { return static_cast<unsigned>(state_); }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "models/parts/r3000_bus/r3000_bus_counters.h"
@@ -41,6 +42,30 @@ class Bus {
   std::uint64_t read_block(std::uint32_t address, unsigned words, std::uint64_t now);
   /// The same for a word that is not cached, or where nothing answers.
   std::uint64_t read_uncached(std::uint32_t address, std::uint64_t now);
+
+  /// Of the last read: the clock in which it starts, and that in which its last word is there.
+  std::uint64_t read_start() const { return read_start_; }
+  std::uint64_t read_end() const { return read_end_; }
+  /// Stores so far, the oldest is 0.
+  std::uint64_t stores() const { return count_; }
+  struct Write {
+    std::uint64_t enter = 0, start = 0, end = 0;  ///< clocks; in `end` its entry is free again
+  };
+  /// One of the last 64 stores as it is known now: a read that asks before `start` may still move it.
+  Write write(std::uint64_t store) const {
+    const Entry& entry = entries_[store & kMask];
+    return {entry.enter, entry.start, entry.end};
+  }
+  /// Nothing is under way in clock `now` and nothing waits.
+  bool idle(std::uint64_t now) const { return read_end_ <= now && (count_ == 0 || newest().end <= now); }
+  /// While idle: an address of the open page, if one is.
+  std::optional<std::uint32_t> open_page() const {
+    const std::uint32_t page = count_ > first_after_read_ ? newest().page : read_page_;
+    if (page == kNoPage) return std::nullopt;
+    return page << page_shift_;
+  }
+  /// Before anything else: memory's last operation was at this address.
+  void open_page(std::uint32_t address) { read_page_ = page_of(address); }
 
   /// What has happened when a run ends with clock `last`; operations that start later are not counted.
   Counters counters(std::uint64_t last) const;

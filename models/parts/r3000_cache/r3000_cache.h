@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "models/parts/r3000_cache/r3000_cache_spec.h"
@@ -33,6 +34,13 @@ class Tags {
   /// First byte of the block that a miss at the address fetches.
   std::uint32_t block_of(std::uint32_t address) const { return address & ~(refill_bytes() - 1); }
   std::uint32_t refill_bytes() const { return 4 * refill_words_; }
+
+  std::uint32_t words() const { return mask_ + 1; }
+  /// The address whose word stands at this index, if any.
+  std::optional<std::uint32_t> held(std::uint32_t index) const {
+    if (tags_[index] == kInvalid) return std::nullopt;
+    return tags_[index] << 2;
+  }
 
  private:
   static constexpr std::uint32_t kInvalid = ~0u;
