@@ -23,19 +23,21 @@ RecordedPipeline::RecordedPipeline(const Spec& spec, const Board& board, trace::
 
 // ---- What the core tells.
 
-void RecordedPipeline::read(std::uint32_t address) {
+bool RecordedPipeline::read(std::uint32_t address) {
   const std::uint64_t misses = data_misses_;
   Pipeline::read(address);
-  if (!watching_) return;
+  const bool missed = data_misses_ != misses;
+  if (!watching_) return !missed;
   access_ = {Access::kLoad, address};
-  access_.missed = data_misses_ != misses;
-  if (!recording() || (of_memory() && !access_.missed)) return;
+  access_.missed = missed;
+  if (!recording() || (of_memory() && !missed)) return !missed;
   const unsigned words = of_memory() ? spec_.data_cache.refill_words : 1;
   const std::uint32_t first = of_memory() ? data_.block_of(address) : address & ~3u;
   for (unsigned i = 0; i < words; ++i) {
     learn(first + 4 * i, 0);
     access_.words.push_back(board_.word(first + 4 * i));
   }
+  return !missed;
 }
 
 void RecordedPipeline::read_uncached(std::uint32_t address) {
