@@ -12,6 +12,7 @@
 #include "firmware/lib/pixel_planes/igc_driver.h"
 #include "firmware/lib/rds3000/rds_driver.h"
 #include "models/parts/host/host_port.h"
+#include "sim/scene/image_io.h"
 
 /// What a hard numerical case is made of; the cases of an algorithm lie below its folder.
 namespace dendro::stability {
@@ -44,11 +45,19 @@ struct Curve {
   std::vector<std::vector<double>> rows;  ///< one value per column
   bool logarithmic = false;               ///< the chart's y
   std::string y_label;                    ///< empty: no picture
+  double reach = 0;                       ///< above 0: the chart's y goes from 0 to here at least
+};
+
+/// A picture that a case leaves as PNG.
+struct Picture {
+  std::string name;  ///< of the file, without its end
+  scene::RgbImage image;
 };
 
 struct Result {
   std::vector<Row> rows;
   std::vector<Curve> curves;
+  std::vector<Picture> pictures = {};
 };
 
 /// How the lines of a pixel array's tree are driven.

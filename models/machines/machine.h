@@ -139,8 +139,8 @@ struct ProgramImage {
   service_block::Program program;
 };
 
-/// A call of the program that marks a point of its run (service_block_isa.h): `cycles` and `instructions` of the run
-/// before the mark's store.
+/// A call of the program that marks a point of its run (service_block_isa.h): `instructions` before the mark's store,
+/// `cycles` before the clock in which it reaches the service block.
 struct ProgramMark {
   std::uint32_t number = 0, label = 0;  ///< of the call (0x7000 up) and its argument
   std::uint64_t instructions = 0;

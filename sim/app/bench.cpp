@@ -12,7 +12,7 @@ namespace dendro::app {
 namespace {
 
 struct Options {
-  std::string level, json, progress = "auto";
+  std::string machine, level, json, progress = "auto";
   std::vector<std::string> settings;
   int repeats = 3;
 };
@@ -20,7 +20,7 @@ struct Options {
 int measure(const study::Catalogue& catalogue, const Options& options) {
   study::OutputFile json(options.json);
   study::Progress progress(options.progress);
-  const auto rows = study::bench(catalogue, options.level, options.settings, options.repeats, &progress);
+  const auto rows = study::bench(catalogue, options.machine, options.level, options.settings, options.repeats, &progress);
   if (options.json != "-") std::fputs(study::bench_text(rows).c_str(), stdout);
   json.commit(study::bench_json(rows));
   return kGood;
@@ -31,6 +31,7 @@ int measure(const study::Catalogue& catalogue, const Options& options) {
 void add_bench(CLI::App& app, const study::Catalogue& catalogue, Action& action) {
   const auto o = std::make_shared<Options>();
   CLI::App* command = app.add_subcommand("bench", "host speed of each machine and level");
+  command->add_option("--machine", o->machine, "only this machine")->check(some_text());
   command->add_option("--level", o->level, "only this level")->check(some_text());
   command->add_option("--set", o->settings, "key=value of the scene that is run")->allow_extra_args(false);
   command->add_option("--repeats", o->repeats, "runs, of which the best counts")

@@ -23,16 +23,23 @@ void write_folder(study::RunFolder& folder, const std::vector<stability::Result>
   folder.write("stability.json", study::stability_json(results));
   folder.write("stability.csv", study::stability_csv(results));
   folder.write("summary.txt", study::stability_text(results));
-  for (const stability::Result& result : results)
+  for (const stability::Result& result : results) {
     for (const stability::Curve& curve : result.curves) {
       folder.write(curve.name + ".csv", study::curve_csv(curve));
       if (!curve.y_label.empty())
         folder.writing([&] { study::write_curve_picture(curve, folder.work() + "/" + curve.name + ".png"); });
     }
+    for (const stability::Picture& picture : result.pictures)
+      folder.writing([&] { scene::write_png(folder.work() + "/" + picture.name + ".png", picture.image); });
+  }
   folder.commit();
 }
 
 int check(const study::Catalogue& catalogue, const Options& options) {
+  if (options.stability.cases == std::vector<std::string>{"list"}) {
+    fmt::print("{}", study::stability_list(study::stability_suites()));
+    return kGood;
+  }
   study::OutputFile json(options.json);
   std::optional<study::RunFolder> folder;
   if (!options.out.empty()) folder.emplace(options.out);
@@ -52,7 +59,7 @@ void add_stability(CLI::App& app, const study::Catalogue& catalogue, Action& act
   o->stability.jobs = study::default_jobs();
   CLI::App* command =
       app.add_subcommand("stability", "the hard numerical cases: measured error beside its bound");
-  command->add_option("case", o->stability.cases, "ids, such as N-A1 or X2; default: all");
+  command->add_option("case", o->stability.cases, "ids, such as N-A1 or X2; default: all; `list` names them");
   command->add_option("--out", o->out, "folder for rows, curves and their pictures");
   command->add_option("--json", o->json, "also write the rows here; - is standard output");
   command->add_option("--seed", o->stability.seed, "of the random cases");

@@ -36,7 +36,13 @@ void write_folder(study::RunFolder& folder, const std::vector<study::TableRow>& 
   folder.commit();
 }
 
+int list_tables() {
+  for (const study::PaperTable& table : study::paper_tables()) fmt::print("{:<8} {}\n", table.key, table.title);
+  return kGood;
+}
+
 int make(const study::Catalogue& catalogue, const Options& options) {
+  if (options.key == "list") return list_tables();
   const auto plan = study::table_plan(options.key);
   const study::RunCache cache;
   study::Progress progress(options.progress);
@@ -46,13 +52,13 @@ int make(const study::Catalogue& catalogue, const Options& options) {
   std::optional<study::RunFolder> folder;
   if (!options.out.empty()) folder.emplace(options.out);
   const bool print = options.json != "-";
-  if (print) {
+  if (print && options.table.rows.empty()) {
     fmt::print("plan:\n");
     for (const std::string& line : plan) fmt::print("  {}\n", line);
     std::fflush(stdout);
   }
   const auto rows = study::make_table(options.key, context);
-  if (print) fmt::print("\n{}", study::table_text(rows));
+  if (print) fmt::print("{}{}", options.table.rows.empty() ? "\n" : "", study::table_text(rows));
   if (folder) write_folder(*folder, rows);
   json.commit(study::table_json(rows));
   return !options.tolerance || within(rows, *options.tolerance) ? kGood : kOutsideTolerance;
@@ -64,10 +70,11 @@ void add_table(CLI::App& app, const study::Catalogue& catalogue, Action& action)
   const auto o = std::make_shared<Options>();
   o->table.jobs = study::default_jobs();
   CLI::App* command = app.add_subcommand("table", "a paper's timing table beside the simulated one");
-  command->add_option("key", o->key, "the paper's key, or all");
+  command->add_option("key", o->key, "the paper's key, or all; list names the tables");
   command->add_flag("--full", o->table.full, "sample all assumptions at once, too");
   command->add_option("--level", o->table.level, "cycle or clocked")->check(some_text());
   command->add_option("--set", o->table.settings, "key=value, applied to every run")->allow_extra_args(false);
+  command->add_option("--row", o->table.rows, "make this row only; several may be given")->allow_extra_args(false);
   command->add_option("--jobs", o->table.jobs, "worker processes")->check(whole_number(1, 1024));
   command->add_option("--tolerance", o->tolerance, "exit 3 when a ratio is further than this from 1")
       ->check(finite_number(0, false));

@@ -146,6 +146,38 @@ Assignment corner(const std::vector<Alone>& all, const Metric& metric, double no
   return assignment;
 }
 
+/// Every parameter at each of its ends and choices, alone.
+struct Singles {
+  Singles(const RunRequest& request, Explorer& explorer) : parameters(varied_parameters(request.preset.parameters)) {
+    std::vector<Assignment> assignments;
+    for (const Parameter& p : parameters)
+      for (const Value& value : alternatives(p)) assignments.push_back({{p.key, value}});
+    runs = explorer.run(assignments, false);
+    std::size_t next = 0;
+    for (const Parameter& p : parameters) {
+      alone.push_back({&p, {}});
+      for (std::size_t i = 0; i < alternatives(p).size(); ++i) alone.back().runs.push_back(&runs[next++]);
+    }
+  }
+  Singles(const Singles&) = delete;
+  Singles& operator=(const Singles&) = delete;
+
+  /// All low, all high, and per metric the two corners of each parameter's faster and slower end.
+  std::vector<Assignment> corners(const stats::RunObject& nominal, const std::vector<Metric>& metrics) const {
+    std::vector<Assignment> together = {ends(parameters, false), ends(parameters, true)};
+    for (const Metric& metric : metrics)
+      for (const bool largest : {false, true}) {
+        const Assignment a = corner(alone, metric, metric.of(nominal), largest);
+        if (std::find(together.begin(), together.end(), a) == together.end()) together.push_back(a);
+      }
+    return together;
+  }
+
+  std::vector<Parameter> parameters;
+  std::vector<VariedRun> runs;
+  std::vector<Alone> alone;
+};
+
 constexpr std::uint64_t kSampleSeed = 1986;
 
 // Not std::uniform_real_distribution and std::shuffle: their numbers differ between libraries.
@@ -194,30 +226,18 @@ std::vector<Assignment> latin_hypercube(const std::vector<Parameter>& parameters
   return points;
 }
 
+std::vector<Assignment> corners(const RunRequest& request, const stats::RunObject& nominal,
+                                const std::vector<Metric>& metrics, const RunMaker& make_runs) {
+  Explorer explorer(request, make_runs);
+  return Singles(request, explorer).corners(nominal, metrics);
+}
+
 std::vector<Interval> propagate(const RunRequest& request, const stats::RunObject& nominal,
                                 const std::vector<Metric>& metrics, const RunMaker& make_runs, int samples) {
-  const std::vector<Parameter> parameters = varied_parameters(request.preset.parameters);
   Explorer explorer(request, make_runs);
-
-  std::vector<Assignment> singles;
-  for (const Parameter& p : parameters)
-    for (const Value& value : alternatives(p)) singles.push_back({{p.key, value}});
-  const std::vector<VariedRun> single_runs = explorer.run(singles, false);
-  std::vector<Alone> alone;
-  std::size_t next = 0;
-  for (const Parameter& p : parameters) {
-    alone.push_back({&p, {}});
-    for (std::size_t i = 0; i < alternatives(p).size(); ++i)
-      alone.back().runs.push_back(&single_runs[next++]);
-  }
-
-  std::vector<Assignment> together = {ends(parameters, false), ends(parameters, true)};
-  for (const Metric& metric : metrics)
-    for (const bool largest : {false, true}) {
-      const Assignment a = corner(alone, metric, metric.of(nominal), largest);
-      if (std::find(together.begin(), together.end(), a) == together.end()) together.push_back(a);
-    }
-  const std::vector<Assignment> points = latin_hypercube(parameters, samples, kSampleSeed);
+  const Singles singles(request, explorer);
+  std::vector<Assignment> together = singles.corners(nominal, metrics);
+  const std::vector<Assignment> points = latin_hypercube(singles.parameters, samples, kSampleSeed);
   together.insert(together.end(), points.begin(), points.end());
   const std::vector<VariedRun> corner_runs = explorer.run(together, true);
 
@@ -225,13 +245,13 @@ std::vector<Interval> propagate(const RunRequest& request, const stats::RunObjec
   for (const Metric& metric : metrics) {
     const double value = metric.of(nominal);
     Interval interval{value, value, {}, explorer.notes()};
-    for (const auto* runs : {&single_runs, &corner_runs})
+    for (const auto* runs : {&singles.runs, &corner_runs})
       for (const VariedRun& run : *runs) {
         if (!run.impossible.empty()) continue;
         interval.low = std::min(interval.low, metric.of(run.object));
         interval.high = std::max(interval.high, metric.of(run.object));
       }
-    for (const Alone& a : alone) interval.contributions.push_back(contribution(a, metric, value));
+    for (const Alone& a : singles.alone) interval.contributions.push_back(contribution(a, metric, value));
     std::stable_sort(interval.contributions.begin(), interval.contributions.end(),
                      [](const auto& a, const auto& b) { return a.high - a.low > b.high - b.low; });
     intervals.push_back(std::move(interval));

@@ -58,6 +58,11 @@ std::vector<Interval> propagate(const RunRequest& request, const stats::RunObjec
                                 const std::vector<Metric>& metrics, const RunMaker& make_runs,
                                 int samples = 0);
 
+/// The combinations that propagate() tries beside single parameters: all low, all high, and per metric the two
+/// corners made of each parameter's faster and slower end. Found with a small run, they serve for dear ones.
+std::vector<Assignment> corners(const RunRequest& request, const stats::RunObject& nominal,
+                                const std::vector<Metric>& metrics, const RunMaker& make_runs);
+
 /// The request with these values in its parameters. Throws UserError.
 RunRequest with_values(const RunRequest& request, const Assignment& assignment);
 

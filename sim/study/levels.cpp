@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <nlohmann/json.hpp>
 
@@ -66,13 +67,14 @@ std::vector<LevelRow> compare_levels(const Catalogue& catalogue, const RunArgume
                                      Progress* progress) {
   RunRequest request = prepare_run(catalogue, arguments);
   std::vector<Made> all;
-  double spent = 0;
+  // What a run takes beside what is compared: preparing, pictures, programs without time.
+  double spent = 0, beside = 0;
   std::optional<RunOutput> before;
   for (const Level level : {Level::kFunction, Level::kEstimate, Level::kCycle, Level::kClocked}) {
     Made made;
     made.row.level = level_name(level);
     const auto& has = request.type->levels;
-    const double ahead = predicted_seconds(level, before);
+    const double ahead = predicted_seconds(level, before) + beside;
     if (std::find(has.begin(), has.end(), level) == has.end()) {
       made.row.skipped = request.type->name + " has no such level";
     } else if (budget > 0 && spent + ahead > budget) {
@@ -82,10 +84,13 @@ std::vector<LevelRow> compare_levels(const Catalogue& catalogue, const RunArgume
       request.level = level;
       // `clocked` takes the ticks that `cycle` took.
       if (progress) progress->expect(level == Level::kClocked && before ? before->object.cycles : 0);
+      const auto start = std::chrono::steady_clock::now();
       made.output = execute_in_worker(request, "", progress);
+      const double whole = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
       made.row.host_seconds = made.output->object.host.seconds;
       made.row.cycles = made.output->object.cycles;
-      spent += made.row.host_seconds;
+      spent += whole;
+      beside = std::max(0.0, whole - made.row.host_seconds);
       before = made.output;
     }
     all.push_back(std::move(made));

@@ -7,6 +7,8 @@
 #include <nlohmann/json.hpp>
 
 #include "firmware/half_space/stability/cases.h"
+#include "firmware/lib/workstation_rig.h"
+#include "firmware/zbuffer_views/stability/cases.h"
 #include "sim/base/check.h"
 #include "sim/base/error.h"
 #include "sim/config/preset.h"
@@ -14,8 +16,10 @@
 #include "sim/study/algorithms.h"
 #include "sim/study/igc_programs.h"
 #include "sim/study/run.h"
+#include "sim/study/scene_file.h"
 #include "sim/study/stability_tree.h"
 #include "sim/study/worker.h"
+#include "sim/study/workstation.h"
 
 namespace dendro::study {
 namespace {
@@ -27,17 +31,19 @@ using stability::Row;
 using Json = nlohmann::json;
 
 /// A catalogue machine with one preset's parameters.
-class CatalogueRig : public stability::Rig {
+class CatalogueRig : public stability::Rig, public stability::WorkstationRig {
  public:
-  CatalogueRig(const Catalogue& catalogue, const std::string& machine)
-      : preset_(config::load_preset(machine, catalogue.presets(), {"--machine", 0})),
+  CatalogueRig(const Catalogue& catalogue, const StabilitySuite& suite)
+      : catalogue_(catalogue),
+        preset_(config::load_preset(suite.machine, catalogue.presets(), {"--machine", 0})),
         type_(catalogue.machine(preset_.machine)) {
-    DENDRO_CHECK(type_ != nullptr, "{}", machine);
+    DENDRO_CHECK(type_ != nullptr, "{}", suite.machine);
+    set(suite.parameters);
   }
 
   std::unique_ptr<Rig> with(const std::map<std::string, std::int64_t>& parameters) const override {
     auto other = std::make_unique<CatalogueRig>(*this);
-    for (const auto& [key, value] : parameters) other->preset_.parameters.set(key, value, {"stability", 0});
+    other->set(parameters);
     return other;
   }
 
@@ -73,7 +79,25 @@ class CatalogueRig : public stability::Rig {
     inspect(view);
   }
 
+  scene::Scene scene(const std::string& name, const std::vector<std::string>& settings) const override {
+    return load_scene(name, settings, catalogue_).scene;
+  }
+
+  std::string program_bytes(const std::string& program) const override { return shipped_program(program); }
+
+  std::string exec_bytes(const std::string& program, const std::string& bytes, const std::vector<std::string>& arguments,
+                         stability::Files& files) const override {
+    MemoryServices services(files);
+    run_elf(*type_, preset_.parameters, Level::kFunction, {}, program, bytes, arguments, services);
+    return services.output;
+  }
+
  private:
+  void set(const std::map<std::string, std::int64_t>& parameters) {
+    for (const auto& [key, value] : parameters) preset_.parameters.set(key, value, {"stability", 0});
+  }
+
+  const Catalogue& catalogue_;
   config::Preset preset_;
   const MachineType* type_;
 };
@@ -125,10 +149,20 @@ Json to_json(const Row& row) {
 
 }  // namespace
 
+std::string stability_list(const std::vector<StabilitySuite>& suites) {
+  std::string text;
+  for (const StabilitySuite& suite : suites)
+    for (const stability::Case& one : suite.cases)
+      text += fmt::format("{:6} {:14} {:20} {}\n", one.id, suite.algorithm, suite.machine, one.what);
+  return text;
+}
+
 const std::vector<StabilitySuite>& stability_suites() {
   static const std::vector<StabilitySuite> list = {
-      {"half_space", "rds3000:fg86", half_space::stability_cases()},
-      {"half_space", "pixel-planes:pxpl4", half_space::planes_stability_cases()}};
+      {"half_space", "rds3000:fg86", {}, half_space::stability_cases()},
+      {"half_space", "pixel-planes:pxpl4", {}, half_space::planes_stability_cases()},
+      // The least memory: hundreds of fresh machines, each of which clears it.
+      {"zbuffer_views", "sgi-4d35", {{"memory.main_bytes", 32 << 20}}, zbuffer_views::stability_cases()}};
   return list;
 }
 
@@ -138,7 +172,7 @@ std::vector<Result> run_stability(const Catalogue& catalogue, const std::vector<
   std::vector<std::function<std::string()>> tasks;
   for (const Chosen& c : chosen)
     tasks.emplace_back([&catalogue, c, seed = options.seed] {
-      return to_bytes(c.one->run(CatalogueRig(catalogue, c.suite->machine), seed));
+      return to_bytes(c.one->run(CatalogueRig(catalogue, *c.suite), seed));
     });
   std::size_t done = 0;
   if (progress) progress->runs("stability", 0, tasks.size());
@@ -208,6 +242,7 @@ void write_curve_picture(const Curve& curve, const std::string& path) {
   chart.x.label = curve.columns.front();
   chart.y.label = curve.y_label;
   chart.y.logarithmic = curve.logarithmic;
+  if (curve.reach > 0) chart.y.high = curve.reach;
   for (std::size_t c = 1; c < curve.columns.size(); ++c) {
     scene::ChartSeries series{curve.columns[c], {}, {}};
     for (const auto& row : curve.rows) {
@@ -222,12 +257,14 @@ void write_curve_picture(const Curve& curve, const std::string& path) {
 }
 
 std::string to_bytes(const Result& result) {
-  Json json = {{"rows", Json::array()}, {"curves", Json::array()}};
+  Json json = {{"rows", Json::array()}, {"curves", Json::array()}, {"pictures", Json::array()}};
   for (const Row& r : result.rows)
     json["rows"].push_back(
         {r.case_id, r.what, r.measured, r.bound, r.unit, r.reference, static_cast<int>(r.kind), r.where});
   for (const Curve& c : result.curves)
-    json["curves"].push_back({c.name, c.title, c.columns, c.rows, c.logarithmic, c.y_label});
+    json["curves"].push_back({c.name, c.title, c.columns, c.rows, c.logarithmic, c.y_label, c.reach});
+  for (const stability::Picture& p : result.pictures)
+    json["pictures"].push_back({p.name, p.image.width, p.image.height, Json::binary(p.image.rgb)});
   const auto cbor = Json::to_cbor(json);
   return std::string(cbor.begin(), cbor.end());
 }
@@ -242,7 +279,10 @@ Result result_from_bytes(const std::string& bytes) {
   for (const Json& c : json.at("curves"))
     result.curves.push_back(
         {c[0].get<std::string>(), c[1].get<std::string>(), c[2].get<std::vector<std::string>>(),
-         c[3].get<std::vector<std::vector<double>>>(), c[4].get<bool>(), c[5].get<std::string>()});
+         c[3].get<std::vector<std::vector<double>>>(), c[4].get<bool>(), c[5].get<std::string>(),
+         c[6].get<double>()});
+  for (const Json& p : json.at("pictures"))
+    result.pictures.push_back({p[0].get<std::string>(), {p[1].get<int>(), p[2].get<int>(), p[3].get_binary()}});
   return result;
 }
 

@@ -4,6 +4,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <nlohmann/json.hpp>
 
@@ -73,6 +74,13 @@ Json row_json(const TableRow& row) {
 
 }  // namespace
 
+bool TableOptions::wants(const std::string& id) const {
+  return rows.empty() || std::any_of(rows.begin(), rows.end(), [&](const std::string& wanted) {
+           const bool begins = id.compare(0, wanted.size(), wanted) == 0;
+           return begins && (id.size() == wanted.size() || std::isalpha(static_cast<unsigned char>(id[wanted.size()])));
+         });
+}
+
 std::optional<double> TableRow::ratio() const {
   if (!published || !simulated || *published == 0) return std::nullopt;
   return *simulated / *published;
@@ -98,15 +106,24 @@ std::vector<std::string> settings_for(const TableContext& context, const std::st
 }
 
 const std::vector<PaperTable>& paper_tables() {
-  static const std::vector<PaperTable> tables = {fg86_table(), fghs85_table()};
+  static const std::vector<PaperTable> tables = {fg86_table(), fghs85_table(), mo95_table()};
   return tables;
 }
 
 std::vector<TableRow> make_table(const std::string& key, const TableContext& context) {
+  const std::vector<std::string>& wanted = context.options.rows;
   std::vector<TableRow> rows;
   for (const PaperTable* table : tables_for(key)) {
-    const std::vector<TableRow> made = table->make(context);
-    rows.insert(rows.end(), made.begin(), made.end());
+    const auto of_table = [&](const std::string& id) { return id.compare(0, table->key.size() + 1, table->key + "-") == 0; };
+    if (!wanted.empty() && std::none_of(wanted.begin(), wanted.end(), of_table)) continue;
+    for (TableRow& row : table->make(context))
+      if (context.options.wants(row.id)) rows.push_back(std::move(row));
+  }
+  for (const std::string& id : wanted) {
+    TableOptions one;
+    one.rows = {id};
+    if (std::none_of(rows.begin(), rows.end(), [&](const TableRow& row) { return one.wants(row.id); }))
+      throw UserError("--row", 0, id, "the table has no such row; an id is like FG86-A7a, or FG86-A7 for all its letters");
   }
   return rows;
 }

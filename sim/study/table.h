@@ -29,8 +29,11 @@ struct TableRow {
 struct TableOptions {
   std::string level = "cycle";
   std::vector<std::string> settings;  ///< key=value, applied to every run
+  std::vector<std::string> rows;      ///< ids of the rows to make, with or without their letter; empty: all
   bool full = false;                  ///< sample the assumptions' ranges widely, too
   int jobs = 1;
+
+  bool wants(const std::string& id) const;  ///< the row
 };
 
 /// What a table is made with.
@@ -47,6 +50,7 @@ std::vector<std::string> settings_for(const TableContext& context, const std::st
 /// The table of one paper.
 struct PaperTable {
   std::string key;                ///< "FG86"
+  std::string title;              ///< one line for a list
   std::vector<std::string> plan;  ///< what will be run, one line each
   std::function<std::vector<TableRow>(const TableContext&)> make;
   std::function<void(const TableContext&)> check;  ///< throws UserError for options that make() would refuse
@@ -54,7 +58,7 @@ struct PaperTable {
 
 const std::vector<PaperTable>& paper_tables();
 
-/// Rows of the paper with this key, or of all. Throws UserError for an unknown key.
+/// Rows of the paper with this key, or of all. Throws UserError for an unknown key and for a wanted row that there is not.
 std::vector<TableRow> make_table(const std::string& key, const TableContext& context);
 
 /// Throws UserError for all that make_table() would refuse, without running anything.
@@ -72,5 +76,6 @@ std::string table_text(const std::vector<TableRow>& rows);
 /// The paper's tables; each in a file of its own.
 PaperTable fg86_table();
 PaperTable fghs85_table();
+PaperTable mo95_table();
 
 }  // namespace dendro::study

@@ -29,7 +29,7 @@ PaperTable fg86_table() {
                           fg86_surface_groups, fg86_texture_groups, fg86_tree_groups, fg86_planes_groups,
                           fg86_texels_groups, fg86_open_groups})
     for (RowGroup& group : make()) groups.push_back(std::move(group));
-  return grouped_table("FG86", std::move(groups), check);
+  return grouped_table("FG86", "The Stochastic Modelling of Trees, 1986: half-space trees on rds3000 and pixel-planes", std::move(groups), check);
 }
 
 }  // namespace dendro::study

@@ -214,7 +214,7 @@ PaperTable fghs85_table() {
   for (const Claim& claim : claims())
     plan.push_back(fmt::format("{}: {}, nominal and over every assumption, with three word lengths", claim.id, claim.scene));
   plan.push_back(fmt::format("FGHS85-4: {}, nominal and over every assumption, with three sizes of region", kEqualisation));
-  return {"FGHS85", plan, make, [](const TableContext& context) {
+  return {"FGHS85", "Fast Spheres, Shadows, Textures ... in Pixel-Planes, 1985: primitives on pixel-planes", plan, make, [](const TableContext& context) {
             for (const Claim& claim : claims()) check_run(request_for(context, claim.scene, claim.settings));
             check_run(request_for(context, kEqualisation, equalisations().front()));
           }};

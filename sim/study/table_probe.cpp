@@ -40,7 +40,7 @@ ProbeRequest::ProbeRequest(const TableContext& context, const std::string& name,
                            const std::string& level) {
   ExecArguments arguments;
   arguments.machine = machine;
-  arguments.settings = parameter_settings(context);
+  arguments.settings = parameter_settings(context, machine.substr(0, machine.find(':')));
   request_.catalogue = &context.catalogue;
   request_.preset = exec_preset(context.catalogue, arguments);
   request_.type = context.catalogue.machine(request_.preset.machine);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <memory>
+#include <tuple>
 
 #include "sim/base/check.h"
 #include "sim/base/error.h"
@@ -12,18 +13,23 @@ namespace {
 /// Points of the Latin hypercube that `--full` adds to the corners.
 constexpr int kSamples = 100;
 
-/// The number in "FG86-A12c", then what follows it.
-std::pair<int, std::string> order(const std::string& id) {
-  const std::size_t at = id.find_first_of("0123456789", id.find('-') + 1);
+/// The parts of "FG86-A12c" behind the paper: what stands before the number, the number, what follows it.
+std::tuple<std::string, int, std::string> order(const std::string& id) {
+  const std::size_t letters = id.find('-') + 1, at = id.find_first_of("0123456789", letters);
   DENDRO_CHECK(at != std::string::npos, "{}", id);
   std::size_t used = 0;
   const int number = std::stoi(id.substr(at), &used);
-  return {number, id.substr(at + used)};
+  return {id.substr(letters, at - letters), number, id.substr(at + used)};
+}
+
+bool any_wanted(const RowGroup& group, const TableOptions& options) {
+  return std::any_of(group.rows.begin(), group.rows.end(), [&](const TableRow& row) { return options.wants(row.id); });
 }
 
 std::vector<TableRow> make(const std::vector<RowGroup>& groups, const TableContext& context) {
   std::vector<TableRow> all;
   for (const RowGroup& group : groups) {
+    if (!any_wanted(group, context.options)) continue;
     std::vector<TableRow> rows = group.rows;
     try {
       group.fill(context, rows);
@@ -33,7 +39,8 @@ std::vector<TableRow> make(const std::vector<RowGroup>& groups, const TableConte
     }
     for (const TableRow& row : rows)
       DENDRO_CHECK(row.simulated || !row.note.empty(), "{} has neither a figure nor a reason", row.id);
-    all.insert(all.end(), rows.begin(), rows.end());
+    for (TableRow& row : rows)
+      if (context.options.wants(row.id)) all.push_back(std::move(row));
   }
   std::stable_sort(all.begin(), all.end(),
                    [](const TableRow& a, const TableRow& b) { return order(a.id) < order(b.id); });
@@ -53,10 +60,11 @@ bool is_parameter(const std::string& setting) { return setting.compare(0, 11, "p
 
 }  // namespace
 
-PaperTable grouped_table(const std::string& key, std::vector<RowGroup> groups,
+PaperTable grouped_table(const std::string& key, const std::string& title, std::vector<RowGroup> groups,
                          std::function<void(const TableContext&)> check) {
   PaperTable table;
   table.key = key;
+  table.title = title;
   for (const RowGroup& group : groups)
     if (!group.plan.empty()) table.plan.push_back(key + "-" + claims_of(group) + ": " + group.plan);
   const auto shared = std::make_shared<std::vector<RowGroup>>(std::move(groups));
@@ -146,9 +154,9 @@ void set_metric(TableRow& row, const Propagated& p, const std::vector<Metric>& m
   set_interval(row, p.intervals[i], p.request.preset.parameters);
 }
 
-std::vector<std::string> parameter_settings(const TableContext& context) {
+std::vector<std::string> parameter_settings(const TableContext& context, const std::string& machine) {
   std::vector<std::string> settings;
-  for (const std::string& setting : settings_for(context, "rds3000"))
+  for (const std::string& setting : settings_for(context, machine))
     if (is_parameter(setting)) settings.push_back(setting);
   return settings;
 }
@@ -162,7 +170,7 @@ ExecOutput exec_text(const TableContext& context, const std::string& name, const
   arguments.text = text;
   arguments.level = level.empty() ? context.options.level : level;
   arguments.dumps = dumps;
-  arguments.settings = parameter_settings(context);
+  arguments.settings = parameter_settings(context, arguments.machine);
   arguments.settings.insert(arguments.settings.end(), settings.begin(), settings.end());
   return exec_program(context.catalogue, arguments, nullptr);
 }

@@ -20,7 +20,7 @@ struct RowGroup {
 
 /// A table made of groups, its rows in the order of the claims' numbers. A group that throws UserError leaves
 /// its rows without figures and the error as their note.
-PaperTable grouped_table(const std::string& key, std::vector<RowGroup> groups,
+PaperTable grouped_table(const std::string& key, const std::string& title, std::vector<RowGroup> groups,
                          std::function<void(const TableContext&)> check);
 
 /// A row before its experiment. `id` is the claim's: "FG86-A7a".
@@ -75,9 +75,9 @@ void set_metric(TableRow& row, const Propagated& p, const std::vector<Metric>& m
 /// Throws UserError for a level without time.
 void check_level(const TableContext& context);
 
-/// Those of the table's settings that are the machine's: a scene's keys mean nothing to a program without
-/// scene.
-std::vector<std::string> parameter_settings(const TableContext& context);
+/// Those of the table's settings that are parameters of the machine: a scene's keys mean nothing to a program
+/// without scene.
+std::vector<std::string> parameter_settings(const TableContext& context, const std::string& machine);
 
 /// A microprogram's run with the table's settings of the machine.
 ExecOutput exec_text(const TableContext& context, const std::string& name, const std::string& text,

@@ -14,6 +14,11 @@ namespace dendro::study {
 /// The bytes of a program that ships with dendro: "zbuffer_views_polygons" is embedded as "mips/zbuffer_views_polygons.elf.hex".
 std::string shipped_program(const std::string& name);
 
+/// Runs a program on a fresh machine; `program` is its name in messages. Throws UserError when it does not end with 0.
+ProgramResult run_elf(const MachineType& type, const config::ParameterSet& parameters, Level level, const MachineOptions& options,
+                      const std::string& program, const std::string& bytes, const std::vector<std::string>& arguments,
+                      MemoryServices& services);
+
 /// A machine whose programs are ELF files, as a job uses it in one run: files in memory, what programs took is added up.
 class ElfWorkstation : public Workstation {
  public:
@@ -31,6 +36,7 @@ class ElfWorkstation : public Workstation {
   double clock_hz() const { return clock_hz_; }
   std::int64_t cycles() const { return cycles_; }
   std::uint64_t instructions() const { return instructions_; }  ///< of the timed programs
+  double host_seconds() const { return host_seconds_; }         ///< that the host took for them
   const std::vector<Phase>& phases() const { return phases_; }  ///< "program.phase", each once, in the order of their first time
   const std::vector<UnitStats>& units() const { return units_; }
 
@@ -48,6 +54,7 @@ class ElfWorkstation : public Workstation {
   double clock_hz_ = 0;
   std::int64_t cycles_ = 0;
   std::uint64_t instructions_ = 0;
+  double host_seconds_ = 0;
   std::vector<Phase> phases_;
   std::vector<UnitStats> units_;
 };

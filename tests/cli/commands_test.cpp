@@ -1,3 +1,4 @@
+#include <cmath>
 #include <sstream>
 
 #include "tests/cli/cli.h"
@@ -144,12 +145,32 @@ TEST_F(Commands, LevelsWorksOnEverySceneThatShips) {
 }
 
 TEST_F(Commands, BenchMeasuresTheLevelAskedFor) {
-  ASSERT_EQ(0, dendro("bench --level function --repeats 1 --json o.json").status);
+  ASSERT_EQ(0, dendro("bench --machine rds3000 --level function --repeats 1 --json o.json").status);
   const json rows = json::parse(read("o.json"))["rows"];
-  ASSERT_EQ(2u, rows.size());
-  for (const char* key : {"machine", "level", "work", "simulated_hz", "real_time_factor"})
+  ASSERT_EQ(1u, rows.size());
+  for (const char* key : {"machine", "level", "work", "ticks", "simulated_hz", "real_time_factor"})
     EXPECT_TRUE(rows[0].contains(key)) << key;
   EXPECT_LT(0.0, rows[0]["simulated_hz"]);
+}
+
+TEST_F(Commands, BenchComparesTheEstimateWithTheExactCount) {
+  const std::string small = " --set image.width=80 --set image.height=80 --set zbuffer_views.view_width=40 "
+                            "--set zbuffer_views.view_height=80 --set zbuffer_views.bands=2 --set zbuffer_views.layers=1";
+  ASSERT_EQ(0, dendro("bench --machine sgi-4d35 --repeats 1 --json o.json" + small).status);
+  const json rows = json::parse(read("o.json"))["rows"];
+  ASSERT_EQ(4u, rows.size());
+  for (const json& row : rows) {
+    EXPECT_LT(0.0, row["simulated_hz"]) << row["level"];
+    EXPECT_EQ(row["level"] == "estimate", row.contains("tick_error")) << row["level"];
+  }
+  EXPECT_EQ(rows[2]["ticks"], rows[3]["ticks"]);  // cycle and clocked
+  EXPECT_GT(0.02, std::abs(rows[1]["tick_error"].get<double>()));
+}
+
+TEST_F(Commands, BenchRefusesWhatThereIsNot) {
+  EXPECT_EQ(2, dendro("bench --machine cray-1").status);
+  EXPECT_EQ(2, dendro("bench --level exact").status);
+  EXPECT_EQ(2, dendro("bench --machine rds3000 --level estimate").status);
 }
 
 // On a picture of 64x64 pixels the times mean nothing, but the rows, the cache and the exit statuses are the

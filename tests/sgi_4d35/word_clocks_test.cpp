@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include "models/machines/sgi_4d35/clocked.h"
 #include "models/machines/sgi_4d35/cycle.h"
 #include "tests/sgi_4d35/random_program.h"
 #include "tests/sgi_4d35/timing_rig.h"
@@ -31,7 +32,7 @@ TEST(Sgi4d35WordClocks, AddUpToTheRunAndCountEveryCompletedWord) {
   }
 }
 
-TEST(Sgi4d35Marks, HaveTheClocksBeforeTheirStore) {
+TEST(Sgi4d35Marks, HaveTheClocksBeforeTheirStoreByBothRoutes) {
   const auto call = [](std::uint32_t number) { return or_immediate(kT1, 0, static_cast<int>(number)); };
   const ProgramImage image =
       image_of({{kCode,
@@ -39,20 +40,33 @@ TEST(Sgi4d35Marks, HaveTheClocksBeforeTheirStore) {
                   call(DENDRO_MARK_START), store(kT1, kT0), kNop, kNop, call(DENDRO_MARK_STOP), store(kT1, kT0),
                   store(kNop, kT0), kNop, kNop, kNop}}},
                kCode);
+  for (const auto run : {run_cycle, run_clocked}) {
+    Marks services;
+    std::vector<Retired> retired;
+    RunOptions options;
+    options.retired = &retired;
+    const ProgramResult result = run(small(), image, services, 1000, options);
+    ASSERT_TRUE(result.stopped);
+    ASSERT_EQ(2u, result.marks.size());
+    EXPECT_EQ(unsigned{DENDRO_MARK_START}, result.marks[0].number);
+    EXPECT_EQ(7u, result.marks[0].label);
+    EXPECT_EQ(4u, result.marks[0].instructions);
+    EXPECT_EQ(unsigned{DENDRO_MARK_STOP}, result.marks[1].number);
+    EXPECT_EQ(8u, result.marks[1].instructions);
+    for (const ProgramMark& mark : result.marks)
+      EXPECT_EQ(static_cast<std::int64_t>(retired[mark.instructions].clock), mark.cycles);
+  }
+}
+
+TEST(Sgi4d35Clocked, OneProcessRunsOneProgramAfterTheOther) {
+  const Spec spec = random_spec(1);
+  const ProgramImage image = image_of(random_program(1, 200, 3), kCode + 0x800);
   Marks services;
-  std::vector<Retired> retired;
-  RunOptions options;
-  options.retired = &retired;
-  const ProgramResult result = run_cycle(small(), image, services, 1000, options);
-  ASSERT_TRUE(result.stopped);
-  ASSERT_EQ(2u, result.marks.size());
-  EXPECT_EQ(unsigned{DENDRO_MARK_START}, result.marks[0].number);
-  EXPECT_EQ(7u, result.marks[0].label);
-  EXPECT_EQ(4u, result.marks[0].instructions);
-  EXPECT_EQ(unsigned{DENDRO_MARK_STOP}, result.marks[1].number);
-  EXPECT_EQ(8u, result.marks[1].instructions);
-  for (const ProgramMark& mark : result.marks)
-    EXPECT_EQ(static_cast<std::int64_t>(retired[mark.instructions].clock), mark.cycles);
+  const ProgramResult first = run_clocked(spec, image, services, 20000, {}),
+                      second = run_clocked(spec, image, services, 20000, {});
+  EXPECT_GT(first.cycles, 0);
+  EXPECT_EQ(first.cycles, second.cycles);
+  EXPECT_EQ(first.instructions, second.instructions);
 }
 
 }  // namespace

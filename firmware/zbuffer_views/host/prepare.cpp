@@ -110,13 +110,9 @@ void read_frames(const scene::Scene& scene, scene::Options& options, Prepared& p
   const double turn = options.real("turn", 360, -3600, 3600);
   const bool light_turns = options.choice("turns", "tree", {"tree", "camera"}) == "tree";
   const glm::dvec3 axis = middle_of(p.placements);
-  for (int k = 0; k < count; ++k) {
-    const double angle = (light_turns ? -turn : turn) * k / count;
-    const auto turned = [&](const glm::dvec3& v) { return single(about_vertical(v, angle)); };
-    p.frames.push_back({single(about_vertical(eye - axis, angle) + axis),
-                        {turned(axes.right), turned(axes.up), turned(axes.forward)},
-                        light_turns ? turned(to_light) : single(to_light)});
-  }
+  const Frame first = {eye, {axes.right, axes.up, axes.forward}, to_light};
+  for (int k = 0; k < count; ++k)
+    p.frames.push_back(turned(first, axis, (light_turns ? -turn : turn) * k / count, light_turns));
 }
 
 void check_outside(const scene::Scene& scene, const Prepared& p) {
@@ -172,6 +168,13 @@ RunSettings read_run(scene::Options& options, const Prepared& p) {
 }
 
 }  // namespace
+
+Frame turned(const Frame& frame, const glm::dvec3& axis, double degrees, bool light_too) {
+  const auto turn = [&](const glm::dvec3& v) { return single(about_vertical(v, degrees)); };
+  return {single(about_vertical(frame.eye - axis, degrees) + axis),
+          {turn(frame.axes.right), turn(frame.axes.up), turn(frame.axes.forward)},
+          light_too ? turn(frame.to_light) : single(frame.to_light)};
+}
 
 Prepared prepare(const scene::Scene& scene, RunSettings& settings) {
   scene::Options options = scene.options;

@@ -14,6 +14,10 @@ struct RunSettings {
   bool animate = false;  ///< more than one frame
 };
 
+/// The frame as seen after the camera, and with `light_too` the light, went `degrees` about the vertical through `axis`, from z
+/// towards x; in single precision.
+Frame turned(const Frame& frame, const glm::dvec3& axis, double degrees, bool light_too);
+
 /// Everything that a scene asks for. Throws UserError.
 Prepared prepare(const scene::Scene& scene, RunSettings& settings);
 

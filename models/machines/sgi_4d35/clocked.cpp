@@ -1,76 +1,109 @@
 #include "models/machines/sgi_4d35/clocked.h"
 
-#include <cmath>
+#include <exception>
 #include <memory>
 #include <systemc>
+#include <utility>
 
 #include "models/machines/sgi_4d35/clocked_log.h"
 #include "models/machines/sgi_4d35/clocked_pipeline.h"
 #include "models/machines/sgi_4d35/clocked_vcd.h"
+#include "models/machines/sgi_4d35/marks.h"
 
 namespace dendro::sgi_4d35 {
 namespace {
 
 constexpr std::uint64_t kProgressClocks = std::uint64_t{1} << 20;
 
+/// SystemC elaborates once per process: the engine stays, and drives one pipeline after the other.
 class ClockedEngine : public sc_core::sc_module {
  public:
-  ClockedEngine(sc_core::sc_module_name name, ClockedPipeline& pipeline, double clock_hz,
-                const MachineOptions& options)
-      : sc_module(name),
-        pipeline_(pipeline),
-        options_(options),
-        period_(sc_core::sc_time::from_value(static_cast<sc_dt::uint64>(clock_ps(clock_hz, 1)))) {
-    if (!options.vcd_file.empty()) vcd_ = std::make_unique<ClockedVcd>(pipeline, options, clock_hz);
-    if (!options.pipeline_file.empty()) log_ = std::make_unique<ClockedLog>(pipeline, options);
-    SC_HAS_PROCESS(ClockedEngine);
-    SC_METHOD(on_clock);
+  static ClockedEngine& of_process() {
+    static const bool picoseconds = (sc_core::sc_set_time_resolution(1, sc_core::SC_PS), true);
+    static ClockedEngine engine("sgi_4d35", picoseconds);
+    return engine;
   }
 
-  void close() {
+  /// Until the pipeline stops. Keeps marks; throws what a service, the waveform or the log throws.
+  std::vector<ProgramMark> run(ClockedPipeline& pipeline, MarkedServices& services, double clock_hz,
+                               const MachineOptions& options) {
+    pipeline_ = &pipeline;
+    services_ = &services;
+    options_ = &options;
+    period_ = sc_core::sc_time::from_value(static_cast<sc_dt::uint64>(clock_ps(clock_hz, 1)));
+    marks_.clear();
+    given_up_ = nullptr;
+    if (!options.vcd_file.empty()) vcd_ = std::make_unique<ClockedVcd>(pipeline, options, clock_hz);
+    if (!options.pipeline_file.empty()) log_ = std::make_unique<ClockedLog>(pipeline, options);
+    begin_.notify(sc_core::SC_ZERO_TIME);
+    sc_core::sc_start();
     if (vcd_) vcd_->close();
     if (log_) log_->close();
+    vcd_.reset();
+    log_.reset();
+    if (given_up_) std::rethrow_exception(given_up_);
+    return std::move(marks_);
   }
 
  private:
-  void on_clock() {
-    const std::uint64_t n = pipeline_.clock();
-    pipeline_.look();
-    if (vcd_ && vcd_->wants(n)) vcd_->during(n);
-    if (log_) log_->during(n);
-    pipeline_.move();
-    if (vcd_ && vcd_->wants(n)) vcd_->after();
-    if (n % kProgressClocks == 0 && options_.progress) options_.progress(static_cast<std::int64_t>(n));
-    if (pipeline_.stopped())
-      sc_core::sc_stop();
-    else
-      next_trigger(period_);
+  ClockedEngine(sc_core::sc_module_name name, bool) : sc_module(name) {
+    SC_HAS_PROCESS(ClockedEngine);
+    SC_METHOD(on_clock);
+    sensitive << begin_;
+    dont_initialize();
   }
 
-  ClockedPipeline& pipeline_;
-  const MachineOptions& options_;
+  /// The simulation ends when no clock follows; SystemC would make another error of what is thrown.
+  void on_clock() {
+    try {
+      clock();
+      if (!pipeline_->stopped()) next_trigger(period_);
+    } catch (...) {
+      given_up_ = std::current_exception();
+    }
+  }
+
+  void clock() {
+    const std::uint64_t n = pipeline_->clock(), words = pipeline_->state().instructions;
+    pipeline_->look();
+    if (auto mark = services_->take()) {
+      mark->instructions = words;
+      mark->cycles = static_cast<std::int64_t>(n);
+      marks_.push_back(*mark);
+    }
+    if (vcd_ && vcd_->wants(n)) vcd_->during(n);
+    if (log_) log_->during(n);
+    pipeline_->move();
+    if (vcd_ && vcd_->wants(n)) vcd_->after();
+    if (n % kProgressClocks == 0 && options_->progress) options_->progress(static_cast<std::int64_t>(n));
+  }
+
+  sc_core::sc_event begin_;
   sc_core::sc_time period_;
+  ClockedPipeline* pipeline_ = nullptr;
+  MarkedServices* services_ = nullptr;
+  const MachineOptions* options_ = nullptr;
+  std::vector<ProgramMark> marks_;
   std::unique_ptr<ClockedVcd> vcd_;
   std::unique_ptr<ClockedLog> log_;
+  std::exception_ptr given_up_;
 };
 
 }  // namespace
 
 ProgramResult run_clocked(const Spec& spec, const ProgramImage& image, service_block::Services& services,
                           std::uint64_t limit, const RunOptions& options) {
-  Board board(spec.main_bytes, image, services);
+  MarkedServices marked(services);
+  Board board(spec.main_bytes, image, marked);
   ClockedPipeline pipeline(spec, board, image.start, limit);
   pipeline.keep(options.retired);
-  sc_core::sc_set_time_resolution(1, sc_core::SC_PS);
-  // sc_stop reports itself on standard output, where a program's own output belongs.
-  sc_core::sc_report_handler::set_actions("/OSCI/SystemC", sc_core::SC_INFO, sc_core::SC_DO_NOTHING);
-  ClockedEngine engine("sgi_4d35", pipeline, spec.clock_hz, options.machine);
-  if (!pipeline.stopped()) sc_core::sc_start();
-  engine.close();
+  std::vector<ProgramMark> marks;
+  if (!pipeline.stopped()) marks = ClockedEngine::of_process().run(pipeline, marked, spec.clock_hz, options.machine);
   const r3000::State& state = pipeline.state();
   if (options.final_state != nullptr) *options.final_state = state;
   ProgramResult result = result_of(state, board, spec);
   result.cycles = static_cast<std::int64_t>(pipeline.clock());
+  result.marks = std::move(marks);
   result.units = units_of(pipeline.counters(), counters_of(state));
   return result;
 }

@@ -27,6 +27,44 @@ class Log : public Pipeline::Listener {
   const RunOptions& options_;
 };
 
+/// The core with the marks of its program.
+class MarkedCore {
+ public:
+  MarkedCore(TimedCore& core, MarkedServices& services) : core_(core), services_(services) {}
+
+  /// Executes up to so many words and returns how many are left, more than 0 also behind one that reached a device.
+  std::uint64_t run(std::uint64_t words) {
+    // Whether a mark whose step is put off waits in MEM is known behind the next word.
+    const std::uint64_t now = words != 0 && waiting_ ? 1 : words;
+    const std::uint64_t left = words - now + core_.run_to_service(now);
+    keep_waiting();
+    if (auto mark = services_.take()) {
+      mark->instructions = core_.state().instructions - 1;
+      mark->cycles = static_cast<std::int64_t>(core_.time().bias);
+      marks_.push_back(*mark);
+      waiting_ = core_.puts_off();
+    }
+    return left;
+  }
+
+  /// Behind settle().
+  std::vector<ProgramMark> take_marks() {
+    keep_waiting();
+    return std::move(marks_);
+  }
+
+ private:
+  void keep_waiting() {
+    if (waiting_) marks_.back().cycles = static_cast<std::int64_t>(core_.time().put_off_until());
+    waiting_ = false;
+  }
+
+  TimedCore& core_;
+  MarkedServices& services_;
+  std::vector<ProgramMark> marks_;
+  bool waiting_ = false;  ///< the last mark's step is put off
+};
+
 }  // namespace
 
 ProgramResult run_cycle(const Spec& spec, const ProgramImage& image, service_block::Services& services,
@@ -37,15 +75,8 @@ ProgramResult run_cycle(const Spec& spec, const ProgramImage& image, service_blo
   start(core.state(), image);
   Log log(options);
   if (log.wanted()) core.time().listen(&log);
-  std::vector<ProgramMark> marks;
-  for (std::uint64_t left = limit; left != 0 && !port.stopped();) {
-    left = core.run_to_service(left);
-    if (auto mark = marked.take()) {
-      mark->instructions = core.state().instructions - 1;
-      mark->cycles = static_cast<std::int64_t>(core.time().bias);
-      marks.push_back(*mark);
-    }
-  }
+  MarkedCore words(core, marked);
+  for (std::uint64_t left = limit; left != 0 && !port.stopped();) left = words.run(left);
   const r3000::State& state = core.state();
   ProgramResult result = result_of(state, port, spec);
   Counters counters;
@@ -54,7 +85,7 @@ ProgramResult run_cycle(const Spec& spec, const ProgramImage& image, service_blo
     counters = core.time().counters(state.instructions, core.time().bias);
   }
   result.cycles = static_cast<std::int64_t>(counters.cycles);
-  result.marks = marks;
+  result.marks = words.take_marks();
   result.units = units_of(counters, r3000::counters_of(state));
   if (options.final_state != nullptr) {
     *options.final_state = state;

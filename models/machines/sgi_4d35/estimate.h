@@ -7,7 +7,7 @@ namespace dendro::sgi_4d35 {
 /// How level `estimate` samples: in every period of words one window, at a place that the seed draws. Before it as many
 /// words as `lead_in` run at level `cycle` too, so that units and write buffer are as they would be.
 struct Sampling {
-  std::uint64_t period = 4096, lead_in = 96, window = 160;
+  std::uint64_t period = 16384, lead_in = 128, window = 384;
   std::uint64_t seed = 1;
 };
 

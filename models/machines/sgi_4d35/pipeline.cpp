@@ -82,6 +82,7 @@ std::uint64_t Pipeline::fetch(std::uint32_t address, std::uint64_t now, bool war
   if (!instruction_.hit(address)) {
     ++instruction_misses_;
     instruction_.fill(address);
+    ++fetch_generation_;
     if (warm) return now;
     const unsigned words = spec_.instruction_cache.refill_words;
     const std::uint64_t start = bus_.read_block(block, words, now);
@@ -141,9 +142,9 @@ std::uint64_t Pipeline::memory_slowly(std::uint64_t now) {
 std::uint64_t Pipeline::put_off_memory(std::uint64_t now) {
   const Event event = event_;
   event_ = put_off_;
-  const std::uint64_t then = memory(now);
+  put_off_until_ = memory(now);
   event_ = event;
-  return then;
+  return put_off_until_;
 }
 
 void Pipeline::in_memory(std::uint32_t pc, bool killed, bool refill, bool rfe) {
@@ -153,14 +154,20 @@ void Pipeline::in_memory(std::uint32_t pc, bool killed, bool refill, bool rfe) {
 
 void Pipeline::in_no_memory() { waits_[waiting_++] = {}; }
 
+/// By an isolated store with swapped caches.
+void Pipeline::change_instructions(const Event& swapped) {
+  ++fetch_generation_;
+  if (swapped.valid)
+    instruction_.store_word(swapped.address);
+  else
+    instruction_.invalidate(swapped.address);
+}
+
 /// The run clock in which the oldest word that waits leaves MEM.
 void Pipeline::run_clock(std::uint64_t clock) {
   if (swap_.kind == Event::kSwapped) {
     swap_.kind = Event::kNone;
-    if (swap_.valid)
-      instruction_.store_word(swap_.address);
-    else
-      instruction_.invalidate(swap_.address);
+    change_instructions(swap_);
   }
   if (waiting_ == 0) return;
   Waiting oldest = waits_[0];

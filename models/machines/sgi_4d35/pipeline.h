@@ -34,9 +34,12 @@ class Pipeline {
   Counters counters(std::uint64_t words, std::uint64_t last) const;
 
   // Data, in program order. Physical addresses; `read` and `write` are of cached main memory.
-  void read(std::uint32_t address) {
+  /// False: it misses.
+  bool read(std::uint32_t address) {
     ++data_accesses_;
-    if (__builtin_expect(!data_.hit(address), 0)) miss(address);
+    if (__builtin_expect(data_.hit(address), 1)) return true;
+    miss(address);
+    return false;
   }
   void write(std::uint32_t address, unsigned size) {
     if (size == 4) {
@@ -57,6 +60,8 @@ class Pipeline {
   bool in_mem() const { return event_.kind != Event::kNone; }
 
   // IF.
+  /// Changes whenever a word of the instruction cache does.
+  std::uint32_t fetch_generation() const { return fetch_generation_; }
   std::uint32_t fetch_edge() const { return instruction_.refill_bytes() - 1; }
   bool has_word(std::uint32_t address) const { return instruction_.hit(address); }
   void count_fetches(std::uint64_t words) { instruction_accesses_ += words; }
@@ -71,6 +76,13 @@ class Pipeline {
     const std::uint64_t then = fpu_.when(issue, now);
     in_alu_ = {&issue, then, good};
     if (good) fpu_.issue(issue, then);
+    return stalled(stall_fp_, now, then);
+  }
+  /// The same for good words of the kind that Scoreboard::take() is made for.
+  template <r3010::Unit kUnit, unsigned kReads, unsigned kWrites>
+  std::uint64_t fp_take(std::uint64_t now, const Issue& issue) {
+    const std::uint64_t then = fpu_.take<kUnit, kReads, kWrites>(issue, now);
+    in_alu_ = {&issue, then, true};
     return stalled(stall_fp_, now, then);
   }
   std::uint64_t fp_register(std::uint64_t now, unsigned reg) {
@@ -100,12 +112,18 @@ class Pipeline {
     }
     return event_.kind == Event::kNone ? now : memory_slowly(now);
   }
-  void no_memory() { event_.kind = Event::kNone; }
+  /// As if it went on at once.
+  void no_memory() {
+    if (__builtin_expect(event_.kind == Event::kSwapped, 0)) change_instructions(event_);
+    event_.kind = Event::kNone;
+  }
   void put_off() {
     put_off_ = event_;
     event_.kind = Event::kNone;
   }
   std::uint64_t put_off_memory(std::uint64_t now);
+  /// The clock in which MEM let go of the last word that was put off.
+  std::uint64_t put_off_until() const { return put_off_until_; }
 
   // Careful steps: what stands in MEM, and run clocks.
   unsigned exception_positions() const { return spec_.pipeline.exception_cycles; }
@@ -145,6 +163,7 @@ class Pipeline {
     bus_.delay_newest(now, then);
     return then - now;
   }
+  void change_instructions(const Event& swapped);
   void miss(std::uint32_t address);
   /// When a fetch that is looked at in clock `now` while a block streams in goes on.
   std::uint64_t streamed(std::uint32_t address, std::uint64_t now) const;
@@ -161,11 +180,12 @@ class Pipeline {
   r3000_bus::Bus bus_;
   r3010::Scoreboard fpu_;
   Event event_, put_off_, swap_;
+  std::uint64_t put_off_until_ = 0;
   bool same_access_ = false;
   InAlu in_alu_;
   std::uint64_t multiplier_start_ = 0, multiplier_free_ = 0;
   std::uint64_t stream_start_ = 0, stream_end_ = 0;  ///< read of the instruction block at stream_block_
-  std::uint32_t stream_block_ = 0;
+  std::uint32_t stream_block_ = 0, fetch_generation_ = 1;
   /// The clocks in which IF looked at the word of the last fetch and when it then was to be there: more than one where
   /// ALU held it up in the clock in which it was.
   struct Look {

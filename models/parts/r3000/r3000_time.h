@@ -29,6 +29,7 @@ void Core<Port, Timing>::fetch_slowly(std::uint32_t address, std::uint64_t left)
   const std::uint64_t now = time_.bias - left;
   time_.uncount_fetch();
   time_.bias += fetch_at(address, now) - now;
+  if (warm_) return;
   if (is_plain(address) && !time_.streaming(time_.bias - left + 1)) return;
   careful_ = leave_ = true;
 }
@@ -40,10 +41,11 @@ std::uint64_t Core<Port, Timing>::fetch_at(std::uint32_t address, std::uint64_t 
   Fault unseen;
   if ((address & 3) != 0 || !translate(s_, address, Access::kFetch, physical, unseen)) return now;
   if (port_.page(physical) == nullptr || uncached(s_, address))
-    return time_.fetch_uncached(physical, now);
+    return warm_ ? now : time_.fetch_uncached(physical, now);
   const auto code = code_.find(physical & kPageMask);
   if (code != code_.end() && code->second->plain)
-    fetches_[s_.user()][address >> 12 & (kMappings - 1)] = {address & kPageMask, physical & kPageMask};
+    fetches_[s_.user()][address >> 12 & (kMappings - 1)] =
+        {address & kPageMask, physical & kPageMask, code->second.get()};
   return time_.fetch(physical, now, warm_);
 }
 
@@ -126,27 +128,60 @@ bool Core<Port, Timing>::may_hurry() const {
 }
 
 template <class Port, class Timing>
+void Core<Port, Timing>::warm(bool on) {
+  if (on == warm_) return;
+  if (on) settle();
+  careful_ = !on;
+  lost_ = 0;
+  time_.hurry();
+  warm_ = on;
+}
+
+template <class Port, class Timing>
 void Core<Port, Timing>::settle() {
   catch_up(0);
   time_.finish();
 }
 
+/// From here on in a hurry, if nothing speaks against it.
 template <class Port, class Timing>
-std::uint64_t Core<Port, Timing>::run_paced(std::uint64_t budget) {
+void Core<Port, Timing>::hurry() {
+  if (!careful_ || warm_ || !may_hurry()) return;
+  careful_ = false;
+  time_.hurry();
+}
+
+template <class Port, class Timing>
+std::uint64_t Core<Port, Timing>::run_words(std::uint64_t budget) {
   if constexpr (!kTimed) {
     return run_plain<Pace::kFunction>(budget);
   } else {
-    if (careful_ && may_hurry()) {
-      careful_ = false;
-      time_.hurry();
-    }
+    hurry();
     time_.bias += budget;
-    const std::uint64_t left = careful_ ? run_plain<Pace::kCareful>(budget)
-                               : warm_  ? run_plain<Pace::kWarm>(budget)
-                                        : run_plain<Pace::kFast>(budget);
+    const std::uint64_t left = warm_      ? run_plain<Pace::kWarm>(budget)
+                               : careful_ ? run_plain<Pace::kCareful>(budget)
+                                          : run_plain<Pace::kFast>(budget);
     time_.bias -= left;
     return left;
   }
+}
+
+/// Where no load is under way: blocks, and word by word what they leave.
+template <class Port, class Timing>
+std::uint64_t Core<Port, Timing>::run_paced(std::uint64_t budget) {
+  if constexpr (kTimed) {
+    hurry();
+    if (careful_ && !warm_) return run_words(budget);
+  }
+  if (!s_.in_slot && s_.next_pc == s_.pc + 4) {
+    if constexpr (!kTimed)
+      budget = run_blocks<Pace::kFunction>(budget);
+    else
+      budget = warm_ ? run_blocks<Pace::kWarm>(budget) : run_blocks<Pace::kFast>(budget);
+    if (budget == 0) return 0;
+    if (short_) return run_words(budget);
+  }
+  return budget - 1 + run_words(1);
 }
 
 }  // namespace dendro::r3000

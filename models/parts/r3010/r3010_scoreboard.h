@@ -40,6 +40,23 @@ class Scoreboard {
     ready_[kNoRegister] = 0;
     if (rounding_ && o.unit != Unit::kAdder) rounds_[o.unit == Unit::kDivider] = end - 1;
   }
+  /// when() and issue() in one, for words of one kind: bit i of kReads and kWrites says that operand i counts.
+  template <Unit kUnit, unsigned kReads, unsigned kWrites>
+  std::uint64_t take(const Issue& o, std::uint64_t now) {
+    constexpr auto unit = static_cast<unsigned>(kUnit);
+    std::uint64_t t = std::max(now, unit_free_[unit]);
+    for (unsigned i = 0; i < 4; ++i)
+      if (kReads >> i & 1) t = std::max(t, ready_[o.reads[i]]);
+    for (unsigned i = 0; i < 2; ++i)
+      if (kWrites >> i & 1) t = std::max(t, ready_[o.writes[i]]);
+    if (rounding_ && (kUnit != Unit::kAdder || std::max(rounds_[0], rounds_[1]) >= t)) t = clear_of_rounding(o, t);
+    const std::uint64_t end = t + o.cycles;
+    unit_free_[unit] = end;
+    for (unsigned i = 0; i < 2; ++i)
+      if (kWrites >> i & 1) ready_[o.writes[i]] = end;
+    if (kUnit != Unit::kAdder && rounding_) rounds_[kUnit == Unit::kDivider] = end - 1;
+    return t;
+  }
   /// It could have issued before `now`, and the pipeline stood: when it can from `now` on. Only the clocks in which
   /// another unit rounds can come in between.
   std::uint64_t when_still(const Issue& o, std::uint64_t now) const {

@@ -1,5 +1,6 @@
 #include "sim/study/interval.h"
 
+#include <algorithm>
 #include <cmath>
 #include <set>
 
@@ -53,6 +54,24 @@ class IntervalTest : public fake::TestFolder {
 
   int runs_ = 0;
 };
+
+TEST_F(IntervalTest, CornersOfOneRunReachTheIntervalOfAnother) {
+  const std::vector<Metric> metrics = {{"ticks", [](const stats::RunObject& run) { return double(run.cycles); }}};
+  const RunRequest r = request();
+  const double nominal = double(execute(r, "", nullptr).object.cycles);
+  double low = nominal, high = nominal;
+  const std::vector<Assignment> found = corners(r, execute(r, "", nullptr).object, metrics, here());
+  EXPECT_EQ(4u, found.size());
+  for (const Assignment& assignment : found) {
+    const double ticks = double(execute(with_values(r, assignment), "", nullptr).object.cycles);
+    low = std::min(low, ticks), high = std::max(high, ticks);
+  }
+  const Interval i = interval(r);
+  EXPECT_EQ(i.low, low);
+  EXPECT_EQ(i.high, high);
+  EXPECT_LT(low, nominal);
+  EXPECT_GT(high, nominal);
+}
 
 TEST_F(IntervalTest, ReachesTheCornersEvenWhereRatesAndDelaysRunAgainstEachOther) {
   const Interval i = interval(request());

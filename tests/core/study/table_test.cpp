@@ -53,7 +53,7 @@ TEST(Table, AnUnknownKeyListsTheKnownOnes) {
     table_plan("FG87");
     FAIL();
   } catch (const UserError& e) {
-    EXPECT_STREQ("FG87: there is no such table: known are all, FG86, FGHS85", e.what());
+    EXPECT_STREQ("FG87: there is no such table: known are all, FG86, FGHS85, MO95", e.what());
   }
 }
 
@@ -72,7 +72,7 @@ TEST(GroupedTable, AGroupThatThrowsLosesItsRowsFiguresAndSaysWhyTheOthersStay) {
     throw UserError("--set", 0, "half_space.depth_bits", "12 is outside the allowed 6..8");
   };
   const PaperTable table =
-      grouped_table("X",
+      grouped_table("X", "",
                     {{"refused", {claim("X-2", "two", "s", 1.0), claim("X-3", "three", "s")}, bad},
                      {"", {claim("X-1", "one", "s", 3.0)}, good}},
                     {});
@@ -93,13 +93,30 @@ TEST(GroupedTable, RowsAreInTheOrderOfTheirClaimsNumbers) {
     for (TableRow& row : rows) set_single(row, 0);
   };
   const PaperTable table = grouped_table(
-      "AB86",
-      {{"", {claim("AB86-A10b", "", ""), claim("AB86-A2", "", "")}, fill},
+      "AB86", "",
+      {{"", {claim("AB86-P1", "", ""), claim("AB86-A10b", "", ""), claim("AB86-A2", "", "")}, fill},
        {"", {claim("AB86-A10", "", ""), claim("AB86-A9b", "", ""), claim("AB86-A9a", "", "")}, fill}},
       {});
   std::string ids;
   for (const TableRow& row : table.make(NoRuns().context)) ids += row.id.substr(5) + " ";
-  EXPECT_EQ("A2 A9a A9b A10 A10b ", ids);
+  EXPECT_EQ("A2 A9a A9b A10 A10b P1 ", ids);
+}
+
+TEST(GroupedTable, OnlyGroupsOfWantedRowsAreMade) {
+  const auto fill = [](const TableContext&, std::vector<TableRow>& rows) {
+    for (TableRow& row : rows) set_single(row, 0);
+  };
+  const auto never = [](const TableContext&, std::vector<TableRow>&) { FAIL(); };
+  const PaperTable table = grouped_table(
+      "AB86", "",
+      {{"", {claim("AB86-A1a", "", ""), claim("AB86-A2", "", ""), claim("AB86-A1b", "", "")}, fill},
+       {"", {claim("AB86-A10", "", ""), claim("AB86-A3", "", "")}, never}},
+      {});
+  NoRuns none;
+  none.options.rows = {"AB86-A1"};
+  std::string ids;
+  for (const TableRow& row : table.make(none.context)) ids += row.id.substr(5) + " ";
+  EXPECT_EQ("A1a A1b ", ids);
 }
 
 TEST(TableText, WritesCountsInFullAndTimesWithFourDigits) {

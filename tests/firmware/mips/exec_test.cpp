@@ -1,3 +1,5 @@
+#include <nlohmann/json.hpp>
+
 #include "tests/firmware/mips/shell.h"
 
 namespace dendro::mips {
@@ -6,10 +8,10 @@ namespace {
 void expect_as_qemu(const std::string& program, const std::string& arguments, const std::string& input = "") {
   const std::string before = input.empty() ? "" : "printf '" + input + "' | ",
                     after = input.empty() ? " </dev/null" : "";
-  const Ran reference = run(before + qemu(elf(program), arguments) + after);
+  const Ran reference = run(before + qemu(program_file(program), arguments) + after);
   ASSERT_FALSE(reference.output.empty()) << reference.errors;
   for (const char* suffix : {"", "-unmapped"}) {
-    const Ran ran = run(before + model(elf(program + suffix), arguments) + after);
+    const Ran ran = run(before + model(program_file(program + suffix), arguments) + after);
     EXPECT_EQ(reference.output, ran.output) << program << suffix << ran.errors;
     EXPECT_EQ(reference.status, ran.status) << program << suffix;
     EXPECT_EQ("", ran.errors);
@@ -17,23 +19,40 @@ void expect_as_qemu(const std::string& program, const std::string& arguments, co
 }
 
 TEST(MipsPrograms, ArgumentsInputOutputAndExitCodeAreThoseOfQemu) {
-  expect_as_qemu("hello", "one 'two words' 3", "some input\\nmore");
+  expect_as_qemu("mips_hello", "one 'two words' 3", "some input\\nmore");
 }
 
 TEST(MipsPrograms, InputLongerThanAPageIsRead) {
   std::string long_input;
   for (int i = 0; i < 700; ++i) long_input += "0123456789";
-  expect_as_qemu("hello", "x", long_input);
+  expect_as_qemu("mips_hello", "x", long_input);
 }
 
-TEST(MipsPrograms, SixtyFourBitIntegersAreThoseOfQemu) { expect_as_qemu("integers", ""); }
+TEST(MipsPrograms, SixtyFourBitIntegersAreThoseOfQemu) { expect_as_qemu("mips_integers", ""); }
 
-TEST(MipsPrograms, MathematicsIsThatOfQemu) { expect_as_qemu("maths", "60"); }
+TEST(MipsPrograms, MathematicsIsThatOfQemu) { expect_as_qemu("mips_maths", "60"); }
 
-TEST(MipsPrograms, AllocatorPagesAndFilesAreThoseOfQemu) { expect_as_qemu("memory", scratch() + "/data"); }
+TEST(MipsPrograms, AllocatorPagesAndFilesAreThoseOfQemu) { expect_as_qemu("mips_memory", scratch() + "/data"); }
 
 TEST(MipsPrograms, WhatTheFloatingPointUnitGivesUpOnIsFinishedAsQemuDoesIt) {
-  expect_as_qemu("denormals", "");
+  expect_as_qemu("mips_denormals", "");
+}
+
+TEST(MipsPrograms, LoopsThatMeasureTheProcessorHaveTheResultsOfQemu) {
+  expect_as_qemu("processor_figures_integers", "");
+  expect_as_qemu("processor_figures_numbers", "");
+  expect_as_qemu("processor_figures_numbers", "plain");
+}
+
+TEST(MipsPrograms, ALoopCostsInATableWhatItCostsAlone) {
+  const std::string json = scratch() + "/run.json", table = scratch() + "/table.json";
+  const Ran alone = run(model(program_file("processor_figures_integers"), "", "--level cycle --json " + json) + " </dev/null");
+  ASSERT_EQ(0, alone.status) << alone.errors;
+  const Ran row = run("XDG_CACHE_HOME=" + scratch() + " " DENDRO " table MO95 --row MO95-P8 --json " + table);
+  ASSERT_EQ(0, row.status) << row.errors;
+  const auto object = nlohmann::json::parse(read_file(json));
+  const auto figure = nlohmann::json::parse(read_file(table))["rows"][0]["simulated"].get<double>();
+  EXPECT_DOUBLE_EQ(object["cycles"].get<double>() / object["instructions"].get<double>(), figure);
 }
 
 TEST(MipsPrograms, ReportsFaultsWithPlaceAndCause) {

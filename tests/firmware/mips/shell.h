@@ -43,9 +43,10 @@ inline Ran run(const std::string& command) {
   return ran;
 }
 
-inline std::string elf(const std::string& name) {
-  return std::string(MIPS_FOLDER) + "/mips_" + name + ".elf";
+inline std::string program_file(const std::string& name) {
+  return std::string(MIPS_FOLDER) + "/" + name + ".elf";
 }
+inline std::string elf(const std::string& name) { return program_file("mips_" + name); }
 inline std::string model(const std::string& file, const std::string& arguments = "",
                          const std::string& options = "") {
   return std::string(DENDRO) + " exec sgi-4d35 " + file + " --quiet " + options +
