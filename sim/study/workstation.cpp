@@ -72,7 +72,8 @@ void ElfWorkstation::run(const std::string& program, const std::vector<std::stri
   if (recorded_) options.recorder = nullptr;
   recorded_ |= timed;
   const auto start = std::chrono::steady_clock::now();
-  const ProgramResult result = run_elf(*request_.type, request_.preset.parameters, timed ? request_.level : Level::kFunction, options, program, shipped_program(program), arguments, services);
+  const ProgramResult result = run_elf(*request_.type, request_.preset.parameters, timed ? request_.level : Level::kFunction,
+                                       options, program, shipped_program(program), arguments, services);
   clock_hz_ = result.clock_hz;
   if (timed) {
     host_seconds_ += std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();

@@ -19,7 +19,7 @@ class RecordedPipeline : public Pipeline {
  public:
   RecordedPipeline(const Spec& spec, const Board& board, trace::Writer& out);
 
-  // What the core calls: as Pipeline's.
+  // What the core calls: as Pipeline's. read() is false for a miss.
   bool may_hurry() const { return !watching_ && Pipeline::may_hurry(); }
   bool read(std::uint32_t address);
   void write(std::uint32_t address, unsigned size);
