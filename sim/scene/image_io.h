@@ -17,10 +17,14 @@ struct RgbImage {
 /// One channel of floats by its EXR name ("R", "Z", "cost.visits"), width * height values, rows top down.
 using FloatChannel = std::pair<std::string, std::vector<float>>;
 
+/// Throws UserError when pictures can be neither read nor written, because the program that does it is not installed: said before long
+/// work instead of after it.
+void require_picture_files();
+
 /// Writes an 8-bit PNG. Throws UserError when the file cannot be written; then nothing is left of it.
 void write_png(const std::string& path, const RgbImage& image);
 
-/// Joins picture files of one size to a GIF that runs forever. Throws UserError when it cannot be written; then nothing is left
+/// Joins RGB picture files of one size to a GIF that runs forever. Throws UserError when it cannot be written; then nothing is left
 /// of it.
 void write_animation(const std::string& path, const std::vector<std::string>& pictures, double pictures_a_second);
 

@@ -63,6 +63,7 @@ std::vector<std::string> missing_folders(const fs::path& folder) {
 }  // namespace
 
 RunFolder::RunFolder(const std::string& path) {
+  scene::require_picture_files();
   std::string plain = path;
   while (plain.size() > 1 && plain.back() == '/') plain.pop_back();
   path_ = plain;
