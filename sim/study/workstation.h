@@ -35,8 +35,8 @@ class ElfWorkstation : public Workstation {
 
   double clock_hz() const { return clock_hz_; }
   std::int64_t cycles() const { return cycles_; }
-  double host_seconds() const { return host_seconds_; }         ///< that the timed programs took on this computer
   std::uint64_t instructions() const { return instructions_; }  ///< of the timed programs
+  double host_seconds() const { return host_seconds_; }         ///< that the host took for them
   const std::vector<Phase>& phases() const { return phases_; }  ///< "program.phase", each once, in the order of their first time
   const std::vector<UnitStats>& units() const { return units_; }
 
@@ -50,9 +50,10 @@ class ElfWorkstation : public Workstation {
   Progress* progress_;
   MemoryServices::Files files_;
   std::vector<std::string> pictures_;
-  double clock_hz_ = 0, host_seconds_ = 0;
+  double clock_hz_ = 0;
   std::int64_t cycles_ = 0;
   std::uint64_t instructions_ = 0;
+  double host_seconds_ = 0;
   std::vector<Phase> phases_;
   std::vector<UnitStats> units_;
 };
