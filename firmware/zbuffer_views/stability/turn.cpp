@@ -38,11 +38,12 @@ double brightness(const std::vector<Channel>& rgb, std::size_t pixel) {
 
 }  // namespace
 
-Turn::Turn(const stability::Rig& rig, const std::string& scene, int most_layers) : rig_(rig) {
-  RunSettings settings;
-  prepared_ = prepare(workstation_of(rig).scene(scene, {"zbuffer_views.frames=1", "zbuffer_views.skip_empty=true",
-                                                        "zbuffer_views.layers=" + std::to_string(most_layers)}),
-                      settings);
+Turn::Turn(const stability::Rig& rig, const std::string& scene, int most_layers, const std::vector<std::string>& settings) : rig_(rig) {
+  std::vector<std::string> all = {"zbuffer_views.frames=1", "zbuffer_views.skip_empty=true",
+                                  "zbuffer_views.layers=" + std::to_string(most_layers)};
+  all.insert(all.end(), settings.begin(), settings.end());
+  RunSettings run;
+  prepared_ = prepare(workstation_of(rig).scene(scene, all), run);
   DENDRO_CHECK(!prepared_.perspective && prepared_.placements.size() == 1, "{}", scene);
   tree_ = tree_file(prepared_.tree);
   digest_ = digest_of(tree_);

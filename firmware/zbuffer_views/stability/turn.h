@@ -31,9 +31,9 @@ struct PairGlitches {
 /// A turn around the scene's tree, as the shipped programs draw it.
 class Turn {
  public:
-  /// A built-in scene of one tree in parallel projection. Views of `most_layers` are made at once: fewer layers are the first of
+  /// A built-in scene of one tree in parallel projection, with `key=value` settings. Views of `most_layers` are made at once: fewer layers are the first of
   /// these. The rig has to be that of a workstation.
-  Turn(const stability::Rig& rig, const std::string& scene, int most_layers);
+  Turn(const stability::Rig& rig, const std::string& scene, int most_layers, const std::vector<std::string>& settings = {});
 
   const Prepared& prepared() const { return prepared_; }
 
