@@ -24,8 +24,8 @@ struct Work {
   bool views = false;          ///< the scene's programs work on views, which are made once
 };
 
-/// What each machine is measured on. The magnolia: one frame of 400 x 400 from four views of three layers, with shadows; at
-/// `clocked` a 16th of its samples and pixels.
+/// What each machine is measured on. The magnolia: one frame of 400 x 400 from four views of three layers,
+/// with shadows; at `clocked` a 16th of its samples and pixels.
 const std::vector<Work>& works() {
   static const std::vector<Work> all = {
       {"rds3000", "icosahedron", {}, {}},
@@ -33,7 +33,8 @@ const std::vector<Work>& works() {
       {"sgi-4d35",
        "magnolia",
        {"image.width=400", "image.height=400", "zbuffer_views.bands=4", "zbuffer_views.layers=3"},
-       {"image.width=100", "image.height=100", "zbuffer_views.view_width=76", "zbuffer_views.view_height=152"},
+       {"image.width=100", "image.height=100", "zbuffer_views.view_width=76",
+        "zbuffer_views.view_height=152"},
        true}};
   return all;
 }
@@ -96,8 +97,8 @@ Level any_level(const std::string& name, const Catalogue& catalogue) {
 }
 
 /// The same run with views that are there already: they are made here, into `folder`.
-RunRequest with_views(const Catalogue& catalogue, const Work& work, const Settings& settings, Settings more, const std::string& folder,
-                      Progress* progress) {
+RunRequest with_views(const Catalogue& catalogue, const Work& work, const Settings& settings, Settings more,
+                      const std::string& folder, Progress* progress) {
   Settings save = more;
   save.push_back("zbuffer_views.save_views=true");
   RunRequest request = request_of(catalogue, work, settings, save);
@@ -142,14 +143,17 @@ std::vector<BenchRow> bench(const Catalogue& catalogue, const std::string& machi
       const bool clocked = l == Level::kClocked;
       if (!same || clocked) {
         const Settings more = clocked ? work.clocked : Settings();
-        same = work.views ? with_views(catalogue, work, settings, more, clocked ? clocked_views.path() : views.path(), progress)
+        same = work.views ? with_views(catalogue, work, settings, more,
+                                       clocked ? clocked_views.path() : views.path(), progress)
                           : request_of(catalogue, work, settings, more);
       }
       same->level = l;
       rows.push_back(best_of(*same, clocked ? 1 : repeats, progress));
     }
   }
-  if (rows.empty()) throw UserError("--machine", 0, "", fmt::format("no machine `{}` is measured: known are {}", machine, names));
+  if (rows.empty())
+    throw UserError("--machine", 0, "",
+                    fmt::format("no machine `{}` is measured: known are {}", machine, names));
   compare_estimate(rows);
   if (progress) progress->clear();
   return rows;
@@ -182,8 +186,8 @@ std::string bench_text(const std::vector<BenchRow>& rows) {
                         row.peak_rss_bytes / 1000000);
   for (const BenchRow& row : rows)
     if (row.times_cycle)
-      text += fmt::format("{} at estimate: {:.2f} times as fast as cycle, its ticks differ by {:.3f} %\n", row.machine,
-                          *row.times_cycle, 100 * *row.tick_error);
+      text += fmt::format("{} at estimate: {:.2f} times as fast as cycle, its ticks differ by {:.3f} %\n",
+                          row.machine, *row.times_cycle, 100 * *row.tick_error);
   return text;
 }
 

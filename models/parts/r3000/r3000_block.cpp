@@ -39,8 +39,12 @@ Step fp_step(Step step, std::uint32_t word) {
   using namespace r3010;
   const unsigned format = word >> 21 & 31, operation = word & 63;
   step.op = exists(format, operation) ? fp_operation(format, operation) : StepOp::kFp;
-  const bool wide_result = operation < kCompare && (operation == kCvtD || (format == kDouble && operation != kCvtS && operation != kCvtW));
-  const auto reg = [word](unsigned shift, bool wide) { return static_cast<std::uint8_t>(word >> shift & (wide ? 30 : 31)); };
+  const bool wide_result =
+      operation < kCompare &&
+      (operation == kCvtD || (format == kDouble && operation != kCvtS && operation != kCvtW));
+  const auto reg = [word](unsigned shift, bool wide) {
+    return static_cast<std::uint8_t>(word >> shift & (wide ? 30 : 31));
+  };
   step.rs = reg(11, format == kDouble);
   step.rt = reg(16, format == kDouble);
   step.rd = reg(6, wide_result);
@@ -52,9 +56,9 @@ bool make_step(const Decoded& d, unsigned at, Step& step) {
   step = {StepOp::kEnd, d.rs, d.rt, d.rd, d.imm, static_cast<std::uint16_t>(at)};
   if (is_delayed_load(d.op) && d.rd != 0 && d.rt != kNowhere) return false;  // its slot needs care
   switch (d.op) {
-#define DENDRO_CASE(name, ...)  \
-  case Op::k##name:             \
-    step.op = StepOp::k##name;  \
+#define DENDRO_CASE(name, ...) \
+  case Op::k##name:            \
+    step.op = StepOp::k##name; \
     return true;
     DENDRO_R3000_ALU(DENDRO_CASE)
     DENDRO_CASE(Lb)
@@ -96,8 +100,8 @@ bool make_branch(const Decoded& d, unsigned at, bool nop, Step& step) {
   const std::int64_t target = std::int64_t{at} + s32(d.imm) / 4;
   const bool near = target >= 0 && target < kPageWords;
   switch (d.op) {
-#define DENDRO_CASE(name, ...)                               \
-  case Op::k##name:                                          \
+#define DENDRO_CASE(name, ...)                              \
+  case Op::k##name:                                         \
     step.op = nop ? StepOp::k##name##Nop : StepOp::k##name; \
     break;
     DENDRO_R3000_BRANCHES(DENDRO_CASE)
@@ -143,7 +147,8 @@ bool add_branch(const Decoded* page, unsigned at, Block& block) {
   if (!nop && (is_branch(slot.op) || !make_step(slot, at + 1, behind))) return false;
   block.steps.push_back(branch);
   if (!nop) block.steps.push_back(behind);
-  const bool goes = nop && !leaves_page(branch.op) && branch.op != StepOp::kBc1f && branch.op != StepOp::kBc1t;
+  const bool goes =
+      nop && !leaves_page(branch.op) && branch.op != StepOp::kBc1f && branch.op != StepOp::kBc1t;
   Step go;
   go.op = leaves_page(branch.op) ? StepOp::kGoFar : StepOp::kGo;
   go.at = static_cast<std::uint16_t>(at + 1);

@@ -3,13 +3,13 @@
 #include "models/parts/r3000/r3000.h"
 #include "models/parts/r3010/r3010_timing.h"
 
-/// The fast way through what programs mostly do. Blocks hold no word that can change translation, what interrupts may
-/// do, or code; a step that would fault, wait for a device or find no mapping leaves everything as it was, and
-/// run_plain() does the word.
+/// The fast way through what programs mostly do. Blocks hold no word that can change translation, what
+/// interrupts may do, or code; a step that would fault, wait for a device or find no mapping leaves
+/// everything as it was, and run_plain() does the word.
 namespace dendro::r3000 {
 
-/// The block at word `index` of the page, or nullptr: that is behind the page, or not all that the block would fetch is
-/// in the instruction cache.
+/// The block at word `index` of the page, or nullptr: that is behind the page, or not all that the block
+/// would fetch is in the instruction cache.
 template <class Port, class Timing>
 Block* Core<Port, Timing>::block_at(CodePage& page, unsigned index) {
   if (index >= kPageWords) return nullptr;
@@ -33,7 +33,8 @@ auto Core<Port, Timing>::known_page(std::uint32_t address) -> CodePage* {
   return (address & (kPageMask | 3)) == m.tag ? m.page : nullptr;
 }
 
-/// An arithmetic word of coprocessor 1 that Quick refuses; false: nothing has changed, and it would not just be done.
+/// An arithmetic word of coprocessor 1 that Quick refuses; false: nothing has changed, and it would not just
+/// be done.
 template <class Port, class Timing>
 bool Core<Port, Timing>::slow_fp(std::uint32_t word) {
   if (!(s_.status & kStatusCu1) || (s_.fpu.control >> r3010::kEnableShift & 31)) return false;
@@ -44,7 +45,8 @@ bool Core<Port, Timing>::slow_fp(std::uint32_t word) {
   return false;
 }
 
-/// From a state that may_run_blocks() on. Returns what is left of the budget; `short_` says that a block was longer.
+/// Where the next word is in no slot and waits for no load. Returns what is left of the budget; `short_` says that a
+/// block was longer than that.
 template <class Port, class Timing>
 template <Pace kPace>
 std::uint64_t Core<Port, Timing>::run_blocks(const std::uint64_t budget) {
@@ -69,7 +71,7 @@ std::uint64_t Core<Port, Timing>::run_blocks(const std::uint64_t budget) {
   const bool usable = s_.status & kStatusCu1;
   bool quick = usable && r3010::Quick::suits(s_.fpu);
   std::uint64_t left = budget;
-  std::uint64_t clock = 0;  // in which word 0 of the page would be in ALU, if it ran from there without a stall
+  std::uint64_t clock = 0;  // in which word 0 of the page would be in ALU, had it run from there without a stall
   std::uint32_t generation = 0;
   if constexpr (kTimed) generation = time_.fetch_generation();
   if constexpr (kFast) clock = time_.bias - block->first;
@@ -117,9 +119,9 @@ std::uint64_t Core<Port, Timing>::run_blocks(const std::uint64_t budget) {
 #undef DENDRO_INLINE
 
 #define DENDRO_DISPATCH goto* kHandlers[static_cast<unsigned>(step->op)]
-#define DENDRO_NEXT \
-  do {              \
-    ++step;         \
+#define DENDRO_NEXT  \
+  do {               \
+    ++step;          \
     DENDRO_DISPATCH; \
   } while (0)
 #define d (*step)
@@ -138,18 +140,18 @@ enter:
   DENDRO_R3000_ALU(DENDRO_DO)
 #undef DENDRO_DO
 
-#define DENDRO_DO(name, condition)                                        \
-  do_##name : {                                                           \
-    const bool taken = condition;                                         \
+#define DENDRO_DO(name, condition)                                            \
+  do_##name : {                                                               \
+    const bool taken = condition;                                             \
     if (!find(taken, taken ? d.imm : block->first + block->words)) goto bail; \
-    DENDRO_NEXT;                                                          \
-  }                                                                       \
-  do_##name##Nop : {                                                      \
-    const bool taken = condition;                                         \
+    DENDRO_NEXT;                                                              \
+  }                                                                           \
+  do_##name##Nop : {                                                          \
+    const bool taken = condition;                                             \
     if (!find(taken, taken ? d.imm : block->first + block->words)) goto bail; \
-    ended();                                                              \
-    block = next;                                                         \
-    goto enter;                                                           \
+    ended();                                                                  \
+    block = next;                                                             \
+    goto enter;                                                               \
   }
   DENDRO_R3000_BRANCHES(DENDRO_DO)
 #undef DENDRO_DO
@@ -203,34 +205,35 @@ do_End:
   block = next;
   goto enter;
 
-#define DENDRO_LOAD(name, size, may, value_of, wait, destination)                              \
-  do_##name : {                                                                                \
-    if (!(may)) goto bail;                                                                     \
-    const std::uint32_t address = r[d.rs] + d.imm;                                             \
-    const Mapping& m = reads[address >> 12 & (kMappings - 1)];                                 \
-    if (__builtin_expect((address & (kPageMask | (size - 1))) != m.tag, 0)) goto bail;         \
-    const std::uint8_t* const p = m.bytes + (address & ~kPageMask);                            \
-    bool there = true;                                                                         \
-    if constexpr (kTimed) there = time_.read(m.physical | (address & ~kPageMask));             \
-    wait;                                                                                      \
-    destination = value_of;                                                                    \
-    if (__builtin_expect(!there, 0)) wait_in_memory();                                         \
-    DENDRO_NEXT;                                                                               \
+#define DENDRO_LOAD(name, size, may, value_of, wait, destination)                      \
+  do_##name : {                                                                        \
+    if (!(may)) goto bail;                                                             \
+    const std::uint32_t address = r[d.rs] + d.imm;                                     \
+    const Mapping& m = reads[address >> 12 & (kMappings - 1)];                         \
+    if (__builtin_expect((address & (kPageMask | (size - 1))) != m.tag, 0)) goto bail; \
+    const std::uint8_t* const p = m.bytes + (address & ~kPageMask);                    \
+    bool there = true;                                                                 \
+    if constexpr (kTimed) there = time_.read(m.physical | (address & ~kPageMask));     \
+    wait;                                                                              \
+    destination = value_of;                                                            \
+    if (__builtin_expect(!there, 0)) wait_in_memory();                                 \
+    DENDRO_NEXT;                                                                       \
   }
-#define DENDRO_STORE(name, size, may, put, wait)                                               \
-  do_##name : {                                                                                \
-    if (!(may)) goto bail;                                                                     \
-    const std::uint32_t address = r[d.rs] + d.imm;                                             \
-    const Mapping& m = writes[address >> 12 & (kMappings - 1)];                                \
-    if (__builtin_expect((address & (kPageMask | (size - 1))) != m.tag, 0)) goto bail;         \
-    std::uint8_t* const p = m.bytes + (address & ~kPageMask);                                  \
-    if constexpr (kTimed) time_.write(m.physical | (address & ~kPageMask), size);              \
-    wait;                                                                                      \
-    put;                                                                                       \
-    wait_in_memory();                                                                          \
-    DENDRO_NEXT;                                                                               \
+#define DENDRO_STORE(name, size, may, put, wait)                                       \
+  do_##name : {                                                                        \
+    if (!(may)) goto bail;                                                             \
+    const std::uint32_t address = r[d.rs] + d.imm;                                     \
+    const Mapping& m = writes[address >> 12 & (kMappings - 1)];                        \
+    if (__builtin_expect((address & (kPageMask | (size - 1))) != m.tag, 0)) goto bail; \
+    std::uint8_t* const p = m.bytes + (address & ~kPageMask);                          \
+    if constexpr (kTimed) time_.write(m.physical | (address & ~kPageMask), size);      \
+    wait;                                                                              \
+    put;                                                                               \
+    wait_in_memory();                                                                  \
+    DENDRO_NEXT;                                                                       \
   }
-#define DENDRO_FP_REGISTER(reg) stall([&](auto& time, std::uint64_t now) { return time.fp_register(now, reg); })
+#define DENDRO_FP_REGISTER(reg) \
+  stall([&](auto& time, std::uint64_t now) { return time.fp_register(now, reg); })
   DENDRO_LOAD(Lb, 1, true, static_cast<std::uint32_t>(static_cast<std::int8_t>(*p)), {}, r[d.rt])
   DENDRO_LOAD(Lbu, 1, true, *p, {}, r[d.rt])
   DENDRO_LOAD(Lh, 2, true, static_cast<std::uint32_t>(static_cast<std::int16_t>(load16(p))), {}, r[d.rt])
@@ -271,15 +274,17 @@ do_Mflo:
   DENDRO_NEXT;
 
 // Unit, operands and results as in Issue: one bit each, two for a double.
-#define DENDRO_FP(name, unit, reads, writes, done)                                                         \
-  do_##name : if (!quick || !(done)) goto slow;                                                            \
-  stall([&](auto& time, std::uint64_t now) {                                                               \
-    return time.template fp_take<r3010::Unit::unit, reads, writes>(now, code->issues[d.at]);               \
-  });                                                                                                      \
+#define DENDRO_FP(name, unit, reads, writes, done)                                           \
+  do_##name : if (!quick || !(done)) goto slow;                                              \
+  stall([&](auto& time, std::uint64_t now) {                                                 \
+    return time.template fp_take<r3010::Unit::unit, reads, writes>(now, code->issues[d.at]); \
+  });                                                                                        \
   DENDRO_NEXT;
-#define DENDRO_FP3(name, unit, operation)                                                                          \
-  DENDRO_FP(name##S, unit, 0b0101, 0b01, quick_.template single<r3010::operation>(s_.fpu, d.rd, d.rs, d.rt, d.imm)) \
-  DENDRO_FP(name##D, unit, 0b1111, 0b11, quick_.template twice<r3010::operation>(s_.fpu, d.rd, d.rs, d.rt, d.imm))
+#define DENDRO_FP3(name, unit, operation)                                              \
+  DENDRO_FP(name##S, unit, 0b0101, 0b01,                                               \
+            quick_.template single<r3010::operation>(s_.fpu, d.rd, d.rs, d.rt, d.imm)) \
+  DENDRO_FP(name##D, unit, 0b1111, 0b11,                                               \
+            quick_.template twice<r3010::operation>(s_.fpu, d.rd, d.rs, d.rt, d.imm))
   DENDRO_FP3(Add, kAdder, kAdd)
   DENDRO_FP3(Sub, kAdder, kSub)
   DENDRO_FP3(Mul, kMultiplier, kMul)

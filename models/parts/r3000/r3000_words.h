@@ -43,8 +43,8 @@ void Core<Port, Timing>::multiply_divide(Op op, std::uint32_t a, std::uint32_t b
   if (op == Op::kMult || op == Op::kMultu) {
     const std::uint64_t product =
         op == Op::kMultu ? std::uint64_t{a} * b
-                           : static_cast<std::uint64_t>(std::int64_t{static_cast<std::int32_t>(a)} *
-                                                        static_cast<std::int32_t>(b));
+                         : static_cast<std::uint64_t>(std::int64_t{static_cast<std::int32_t>(a)} *
+                                                      static_cast<std::int32_t>(b));
     s_.hi = static_cast<std::uint32_t>(product >> 32);
     s_.lo = static_cast<std::uint32_t>(product);
     return;

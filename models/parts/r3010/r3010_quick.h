@@ -7,15 +7,16 @@
 
 namespace dendro::r3010 {
 
-/// Arithmetic words between normal numbers by the host's floating point, for programs that have set it to nearest
-/// with no exception enabled and that have met an inexact result already. Then all that such a word can leave beside
-/// its result is Inexact in the cause field, which the next word overwrites: it is worked out when somebody looks.
-/// What is not so simple is refused, before anything has changed.
+/// Arithmetic words between normal numbers by the host's floating point, for programs that have set it to
+/// nearest with no exception enabled and that have met an inexact result already. Then all that such a word
+/// can leave beside its result is Inexact in the cause field, which the next word overwrites: it is worked
+/// out when somebody looks. What is not so simple is refused, before anything has changed.
 class Quick {
  public:
   /// Nothing but settle() and the functions below may come between suits() and the last of them.
   static bool suits(const State& s) {
-    return kHostSuits && (s.control & (31u << kEnableShift | 3u | kInexact << kFlagShift)) == kInexact << kFlagShift;
+    return kHostSuits &&
+           (s.control & (31u << kEnableShift | 3u | kInexact << kFlagShift)) == kInexact << kFlagShift;
   }
   /// The cause field is as the last word left it.
   void settle(State& s) {
@@ -131,12 +132,16 @@ class Quick {
   static bool big_single(std::uint32_t bits) { return (bits & 0x7F800000) != 0; }
   static bool big_double(std::uint64_t bits) { return (bits & std::uint64_t{0x7FF} << 52) != 0; }
   /// Finite and above the smallest normal number: neither tiny before rounding nor too large after it.
-  static bool safe_single(std::uint32_t bits) { return (bits & 0x7FFFFFFF) - 0x00800001 < 0x7F800000 - 0x00800001; }
+  static bool safe_single(std::uint32_t bits) {
+    return (bits & 0x7FFFFFFF) - 0x00800001 < 0x7F800000 - 0x00800001;
+  }
   static bool safe_double(std::uint64_t bits) {
     constexpr std::uint64_t lowest = (std::uint64_t{1} << 52) + 1, infinity = std::uint64_t{0x7FF} << 52;
     return (bits & ~(std::uint64_t{1} << 63)) - lowest < infinity - lowest;
   }
-  static std::uint64_t pair(const State& s, unsigned reg) { return std::uint64_t{s.r[reg + 1]} << 32 | s.r[reg]; }
+  static std::uint64_t pair(const State& s, unsigned reg) {
+    return std::uint64_t{s.r[reg + 1]} << 32 | s.r[reg];
+  }
   static void put(State& s, unsigned reg, std::uint64_t bits) {
     s.r[reg] = static_cast<std::uint32_t>(bits);
     s.r[reg + 1] = static_cast<std::uint32_t>(bits >> 32);

@@ -27,7 +27,8 @@ class Program {
     words_.insert(words_.end(), {r_word(kFnJr, 0, kRa, 0), alu()});
     rig.put(kSub, words_);
     // Goes on behind the word that faulted.
-    rig.put(kHandler, {cop_word(0, kMfc, 26, kEpc), 0, i_word(kMajorAddiu, 26, 26, 4), r_word(kFnJr, 0, 26, 0), cp0_word(kFnRfe)});
+    rig.put(kHandler, {cop_word(0, kMfc, 26, kEpc), 0, i_word(kMajorAddiu, 26, 26, 4),
+                       r_word(kFnJr, 0, 26, 0), cp0_word(kFnRfe)});
     rig.jump(kStart);
     State& s = rig.state();
     for (unsigned r = 2; r < 8; ++r) s.r[r] = static_cast<std::uint32_t>(random_());
@@ -35,7 +36,9 @@ class Program {
     s.r[17] = kStart + 64;
     s.r[18] = i_word(kMajorAddiu, 3, 3, 5);
     for (std::uint32_t& word : s.fpu.r) word = 0x3F800000 + static_cast<std::uint32_t>(random_() % (1 << 25));
-    for (unsigned i = 0; i < 1024; i += 4) rig.poke(kData + i, draw(9) == 0 ? draw(3) : 0x3F800000 + static_cast<std::uint32_t>(random_() % (1 << 26)));
+    for (unsigned i = 0; i < 1024; i += 4)
+      rig.poke(kData + i,
+               draw(9) == 0 ? draw(3) : 0x3F800000 + static_cast<std::uint32_t>(random_() % (1 << 26)));
     s.fpu.control = draw(4) == 0 ? 0 : kInexactFlag | (draw(6) == 0 ? draw(4) : 0);
     if (draw(8) == 0) s.status &= ~kStatusCu1;
   }
@@ -46,23 +49,27 @@ class Program {
   unsigned fp(bool wide) { return wide ? 2 * draw(6) : draw(12); }
 
   std::uint32_t alu() {
-    static constexpr std::uint32_t kThree[] = {kFnAddu, kFnSubu, kFnAnd, kFnOr, kFnXor, kFnNor, kFnSlt, kFnSltu, kFnSllv, kFnSrlv, kFnSrav, kFnAdd};
-    static constexpr std::uint32_t kImmediate[] = {kMajorAddiu, kMajorSlti, kMajorSltiu, kMajorAndi, kMajorOri, kMajorXori, kMajorLui};
+    static constexpr std::uint32_t kThree[] = {kFnAddu, kFnSubu, kFnAnd,  kFnOr,   kFnXor,  kFnNor,
+                                               kFnSlt,  kFnSltu, kFnSllv, kFnSrlv, kFnSrav, kFnAdd};
+    static constexpr std::uint32_t kImmediate[] = {kMajorAddiu, kMajorSlti, kMajorSltiu, kMajorAndi,
+                                                   kMajorOri,   kMajorXori, kMajorLui};
     static constexpr std::uint32_t kShifts[] = {kFnSll, kFnSrl, kFnSra};
     switch (draw(4)) {
       case 0:
         return draw(2) == 0 ? 0 : r_word(kShifts[draw(3)], reg(), 0, reg(), draw(32));
       case 1: {
         const std::uint32_t major = kImmediate[draw(7)];
-        return i_word(major, reg(), major == kMajorLui ? 0 : reg(), static_cast<std::int32_t>(draw(65536)) - 32768);
+        return i_word(major, reg(), major == kMajorLui ? 0 : reg(),
+                      static_cast<std::int32_t>(draw(65536)) - 32768);
       }
       default:
         return r_word(kThree[draw(50) == 0 ? 11 : draw(11)], reg(), reg(), reg());
     }
   }
   std::uint32_t floating() {
-    static constexpr unsigned kOperations[] = {r3010::kAdd, r3010::kSub, r3010::kMul, r3010::kDiv, r3010::kAbs, r3010::kNeg,
-                                               r3010::kMov, r3010::kCvtS, r3010::kCvtD, r3010::kCvtW, r3010::kCompare};
+    static constexpr unsigned kOperations[] = {r3010::kAdd,  r3010::kSub,  r3010::kMul,    r3010::kDiv,
+                                               r3010::kAbs,  r3010::kNeg,  r3010::kMov,    r3010::kCvtS,
+                                               r3010::kCvtD, r3010::kCvtW, r3010::kCompare};
     const unsigned kind = draw(20);
     if (kind == 0) return cop_word(1, kMtc, reg(), fp(false));
     if (kind == 1) return cop_word(1, kMfc, reg(), fp(false));
@@ -74,12 +81,14 @@ class Program {
     return r3010::fp_word(format, operation, fp(wide || operation == r3010::kCvtD), fp(wide), fp(wide));
   }
   std::uint32_t access() {
-    static constexpr std::uint32_t kMajors[] = {kMajorLw, kMajorLw, kMajorSw, kMajorSw, kMajorLb, kMajorLbu, kMajorLh, kMajorLhu,
-                                                kMajorSb, kMajorSh, kMajorLwc1, kMajorSwc1, kMajorLwl, kMajorSwr};
+    static constexpr std::uint32_t kMajors[] = {kMajorLw,   kMajorLw,   kMajorSw,  kMajorSw, kMajorLb,
+                                                kMajorLbu,  kMajorLh,   kMajorLhu, kMajorSb, kMajorSh,
+                                                kMajorLwc1, kMajorSwc1, kMajorLwl, kMajorSwr};
     const std::uint32_t major = kMajors[draw(14)];
     const std::int32_t offset = static_cast<std::int32_t>(draw(200)) & (draw(60) == 0 ? ~0 : ~3);
     if (draw(60) == 0) return i_word(kMajorSw, 18, 17, offset & ~3);  // into code
-    return i_word(major, major == kMajorLwc1 || major == kMajorSwc1 ? fp(false) : reg(), draw(80) == 0 ? reg() : 16, offset);
+    return i_word(major, major == kMajorLwc1 || major == kMajorSwc1 ? fp(false) : reg(),
+                  draw(80) == 0 ? reg() : 16, offset);
   }
   std::uint32_t any() {
     const unsigned kind = draw(100);
@@ -98,17 +107,21 @@ class Program {
       case 0: {  // forward
         static constexpr std::uint32_t kMajors[] = {kMajorBeq, kMajorBne, kMajorBlez, kMajorBgtz};
         const std::uint32_t major = kMajors[draw(4)];
-        words_.push_back(i_word(major, major <= kMajorBne ? reg() : 0, reg(), static_cast<std::int32_t>(over)));
+        words_.push_back(
+            i_word(major, major <= kMajorBne ? reg() : 0, reg(), static_cast<std::int32_t>(over)));
         break;
       }
       case 1:
         words_.push_back(cop_word(1, kBc, draw(2), 0) | over);
         break;
       case 2:
-        words_.push_back(i_word(kRegimm, (draw(5) == 0 ? 16 : 0) + draw(2), reg(), static_cast<std::int32_t>(over)));
+        words_.push_back(
+            i_word(kRegimm, (draw(5) == 0 ? 16 : 0) + draw(2), reg(), static_cast<std::int32_t>(over)));
         break;
       case 3:
-        words_.push_back(j_word(draw(2) == 0 ? kMajorJal : kMajorJ, draw(2) == 0 ? kSub : kStart + static_cast<std::uint32_t>(4 * (words_.size() + 1 + over))));
+        words_.push_back(j_word(
+            draw(2) == 0 ? kMajorJal : kMajorJ,
+            draw(2) == 0 ? kSub : kStart + static_cast<std::uint32_t>(4 * (words_.size() + 1 + over))));
         break;
       case 4: {  // a loop
         words_.push_back(i_word(kMajorAddiu, 20, 0, static_cast<std::int32_t>(2 + draw(9))));
@@ -169,8 +182,10 @@ std::vector<std::uint64_t> operands(bool wide, std::mt19937_64& random) {
   std::vector<std::uint64_t> list;
   const unsigned fraction = wide ? 52 : 23, exponents = wide ? 2047 : 255, middle = exponents / 2;
   for (const unsigned e : {0u, 1u, 2u, middle - 1, middle, middle + 3, middle + 31, exponents - 1, exponents})
-    for (const std::uint64_t f : {std::uint64_t{0}, std::uint64_t{1}, (std::uint64_t{1} << fraction) - 1, random() >> (64 - fraction)})
-      for (const std::uint64_t sign : {0, 1}) list.push_back(sign << (wide ? 63 : 31) | std::uint64_t{e} << fraction | f);
+    for (const std::uint64_t f : {std::uint64_t{0}, std::uint64_t{1}, (std::uint64_t{1} << fraction) - 1,
+                                  random() >> (64 - fraction)})
+      for (const std::uint64_t sign : {0, 1})
+        list.push_back(sign << (wide ? 63 : 31) | std::uint64_t{e} << fraction | f);
   return list;
 }
 
@@ -183,9 +198,12 @@ TEST(R3000Block, FloatingPointLeavesWhatTheR3010Leaves) {
   constexpr unsigned kApart = 8;
   Rig rig;
   for (std::size_t i = 0; i < words.size(); ++i)
-    rig.put(kCode + static_cast<std::uint32_t>(4 * kApart * i), {words[i], 0, i_word(kMajorBeq, 0, 0, -1), 0});
+    rig.put(kCode + static_cast<std::uint32_t>(4 * kApart * i),
+            {words[i], 0, i_word(kMajorBeq, 0, 0, -1), 0});
   unsigned done = 0;
-  for (const std::uint32_t control : {kInexactFlag, 0u, kInexactFlag | 1u, kInexactFlag | (63u << r3010::kCauseShift), kInexactFlag | r3010::kInexact << r3010::kEnableShift})
+  for (const std::uint32_t control :
+       {kInexactFlag, 0u, kInexactFlag | 1u, kInexactFlag | (63u << r3010::kCauseShift),
+        kInexactFlag | r3010::kInexact << r3010::kEnableShift})
     for (std::size_t i = 0; i < words.size(); ++i) {
       const bool wide = (words[i] >> 21 & 31) == r3010::kDouble;
       const std::vector<std::uint64_t> list = operands(wide, random);
@@ -195,7 +213,9 @@ TEST(R3000Block, FloatingPointLeavesWhatTheR3010Leaves) {
           r3010::State expected;
           for (std::uint32_t& r : expected.r) r = 0x12345678;
           expected.r[2] = static_cast<std::uint32_t>(a), expected.r[4] = static_cast<std::uint32_t>(b);
-          if (wide) expected.r[3] = static_cast<std::uint32_t>(a >> 32), expected.r[5] = static_cast<std::uint32_t>(b >> 32);
+          if (wide)
+            expected.r[3] = static_cast<std::uint32_t>(a >> 32),
+            expected.r[5] = static_cast<std::uint32_t>(b >> 32);
           expected.control = control;
           rig.state().fpu = expected;
           rig.jump(kCode + static_cast<std::uint32_t>(4 * kApart * i));
@@ -204,7 +224,8 @@ TEST(R3000Block, FloatingPointLeavesWhatTheR3010Leaves) {
           done += r3010::execute(expected, words[i]) == r3010::Outcome::kDone;
           ASSERT_TRUE(std::equal(expected.r, expected.r + 32, rig.state().fpu.r))
               << std::hex << words[i] << " " << a << " " << b << " " << control;
-          ASSERT_EQ(expected.control, rig.state().fpu.control) << std::hex << words[i] << " " << a << " " << b << " " << control;
+          ASSERT_EQ(expected.control, rig.state().fpu.control)
+              << std::hex << words[i] << " " << a << " " << b << " " << control;
         }
     }
   EXPECT_GT(done, 100000u);
@@ -220,7 +241,8 @@ TEST(R3000Block, OrdinaryOperandsNeedNoMoreThanTheHost) {
   EXPECT_TRUE(quick.single<r3010::kMul>(s, 8, 2, 4, r3010::fp_word(r3010::kSingle, r3010::kMul, 8, 2, 4)));
   quick.settle(s);
   EXPECT_EQ(kInexactFlag | r3010::kInexact << r3010::kCauseShift, s.control);
-  for (const std::uint32_t wrong : {0u, kInexactFlag | 1u, kInexactFlag | r3010::kOverflow << r3010::kEnableShift}) {
+  for (const std::uint32_t wrong :
+       {0u, kInexactFlag | 1u, kInexactFlag | r3010::kOverflow << r3010::kEnableShift}) {
     s.control = wrong;
     EXPECT_FALSE(r3010::Quick::suits(s)) << wrong;
   }
