@@ -21,9 +21,12 @@ class ElfWorkstation : public Workstation {
   ElfWorkstation(const RunRequest& request, const ProgramJob& job, std::string folder, Progress* progress);
 
   std::vector<std::uint8_t>& file(const std::string& name) override { return files_[name]; }
+  base::ScratchFile& large_file(const std::string& name) override { return large_files_[name]; }
   void run(const std::string& program, const std::vector<std::string>& arguments, bool timed) override;
+  void make(const std::string& program, const std::vector<std::string>& arguments, const std::string& file, const std::string& made_from,
+            const std::function<bool(const base::ScratchFile&)>& good) override;
   void show(int width, int height, const std::vector<std::uint8_t>& rgb) override;
-  void keep(const std::string& name, const std::vector<std::uint8_t>& bytes) override;
+  void keep(const std::string& name, const base::ScratchFile& file) override;
 
   /// Joins the pictures that were shown, if there were several, to animation.gif.
   void finish();
@@ -33,6 +36,7 @@ class ElfWorkstation : public Workstation {
   std::uint64_t instructions() const { return instructions_; }  ///< of the timed programs
   const std::vector<Phase>& phases() const { return phases_; }  ///< "program.phase", each once, in the order of their first time
   const std::vector<UnitStats>& units() const { return units_; }
+  const std::vector<std::string>& notes() const { return notes_; }  ///< what a reader of the run should know
 
  private:
   void add(const std::string& program, const ProgramResult& result, const std::vector<MemoryServices::Mark>& calls);
@@ -43,12 +47,14 @@ class ElfWorkstation : public Workstation {
   const std::string folder_;
   Progress* progress_;
   MemoryServices::Files files_;
+  MemoryServices::LargeFiles large_files_;
   std::vector<std::string> pictures_;
   double clock_hz_ = 0;
   std::int64_t cycles_ = 0;
   std::uint64_t instructions_ = 0;
   std::vector<Phase> phases_;
   std::vector<UnitStats> units_;
+  std::vector<std::string> notes_;
 };
 
 }  // namespace dendro::study
