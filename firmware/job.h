@@ -10,6 +10,7 @@
 
 #include "models/parts/host/host_port.h"
 #include "sim/base/check.h"
+#include "sim/base/scratch_file.h"
 
 namespace dendro {
 
@@ -80,15 +81,23 @@ class Workstation {
   /// A file of the workstation, empty until somebody writes it.
   virtual std::vector<std::uint8_t>& file(const std::string& name) = 0;
 
+  /// The same of a file that may be too large for the memory of this process. No file() has its name.
+  virtual base::ScratchFile& large_file(const std::string& name) = 0;
+
   /// Runs a program to its end. Untimed it runs at `function` whatever the level of the run, and its phases take no time.
   /// Throws UserError with what it said when it ends with anything but 0.
   virtual void run(const std::string& program, const std::vector<std::string>& arguments, bool timed) = 0;
+
+  /// An untimed run for the sake of one large file, or that file as an earlier run of the same program left it. `made_from` tells apart
+  /// all inputs that matter to the file; a kept file that is not `good` is made again.
+  virtual void make(const std::string& program, const std::vector<std::string>& arguments, const std::string& file,
+                    const std::string& made_from, const std::function<bool(const base::ScratchFile&)>& good) = 0;
 
   /// One finished picture of a sequence, 8-bit RGB, rows top down.
   virtual void show(int width, int height, const std::vector<std::uint8_t>& rgb) = 0;
 
   /// Puts a file into the folder of the run's results.
-  virtual void keep(const std::string& name, const std::vector<std::uint8_t>& bytes) = 0;
+  virtual void keep(const std::string& name, const base::ScratchFile& file) = 0;
 };
 
 /// A job for a machine whose programs are files: it has no host computer.

@@ -2,8 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
-#include <iterator>
 #include <optional>
 
 #include "firmware/zbuffer_views/host/files.h"
@@ -20,13 +18,6 @@ constexpr std::size_t kMostPictureBytes = 16 << 20;
 
 constexpr const char *kJob = "job", *kTree = "tree", *kViews = "views", *kPictures = "pictures";
 
-Bytes read_file(const std::string& path) {
-  std::ifstream file(path, std::ios::binary);
-  Bytes bytes{std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
-  if (!file.good() && !file.eof()) throw UserError(path, 0, "", "cannot be read");
-  return bytes;
-}
-
 double squares_of(const std::vector<std::uint8_t>& rgb, const ReferencePicture& wanted) {
   double sum = 0;
   for (std::size_t i = 0; i < rgb.size(); ++i) {
@@ -42,20 +33,21 @@ class ViewsJob : public ProgramJob {
     tree_ = tree_file(prepared_.tree);
     digest_ = digest_of(tree_);
     if (settings_.views_file.empty()) return;
-    saved_views_ = read_file(settings_.views_file);
+    if (!saved_views_.read_from(settings_.views_file)) throw UserError(settings_.views_file, 0, "", "cannot be read");
     check_views(saved_views_, prepared_, digest_, settings_.views_file);
   }
 
   void run_programs(Workstation& workstation) override {
-    workstation.file(kTree) = tree_;
+    const std::string made_from = views_made_from(tree_, prepared_.views);
+    workstation.file(kTree) = std::move(tree_);
     if (settings_.polygons) return draw(workstation, "zbuffer_views_polygons", kTree);
+    base::ScratchFile& views = workstation.large_file(kViews);
     if (settings_.views_file.empty()) {
-      workstation.file(kJob) = job_file(prepared_, digest_, 0, 1);
-      workstation.run(name_of("zbuffer_views_precompute"), {kJob, kTree, kViews}, settings_.time_precompute);
+      make_views(workstation, made_from);
     } else {
-      workstation.file(kViews) = std::move(saved_views_);
+      views = std::move(saved_views_);
     }
-    const Bytes& views = workstation.file(kViews);
+    Bytes().swap(workstation.file(kTree));
     stored_ = check_views(views, prepared_, digest_, kViews);
     stored_bytes_ = views.size();
     if (settings_.save_views) workstation.keep("views.zbv", views);
@@ -163,6 +155,20 @@ class ViewsJob : public ProgramJob {
  private:
   std::string name_of(const std::string& program) const { return program + programs_.suffix; }
 
+  void make_views(Workstation& workstation, const std::string& made_from) {
+    const std::string program = name_of("zbuffer_views_precompute");
+    const std::vector<std::string> arguments = {kJob, kTree, kViews};
+    workstation.file(kJob) = job_file(prepared_, digest_, 0, 1);
+    if (settings_.time_precompute) return workstation.run(program, arguments, true);
+    workstation.make(program, arguments, kViews, made_from, [&](const base::ScratchFile& kept) {
+      try {
+        return check_views(kept, prepared_, digest_, kViews).views > 0;
+      } catch (const UserError&) {
+        return false;
+      }
+    });
+  }
+
   void draw(Workstation& workstation, const std::string& program, const char* source) {
     const std::size_t bytes = static_cast<std::size_t>(prepared_.width) * static_cast<std::size_t>(prepared_.height) * 8;
     const std::size_t most = std::max<std::size_t>(1, kMostPictureBytes / bytes);
@@ -171,6 +177,7 @@ class ViewsJob : public ProgramJob {
       workstation.file(kJob) = job_file(prepared_, digest_, at, count);
       workstation.run(name_of(program), {kJob, source, kPictures}, true);
       std::vector<DrawnPicture> pictures = read_pictures(workstation.file(kPictures), prepared_, digest_);
+      Bytes().swap(workstation.file(kPictures));
       DENDRO_CHECK(pictures.size() == count, "{} of {}", pictures.size(), count);
       if (settings_.animate)
         for (const DrawnPicture& picture : pictures) workstation.show(prepared_.width, prepared_.height, picture.rgb);
@@ -206,7 +213,8 @@ class ViewsJob : public ProgramJob {
   RunSettings settings_;
   Prepared prepared_;
   Programs programs_;
-  Bytes tree_, saved_views_;
+  Bytes tree_;
+  base::ScratchFile saved_views_;
   Digest digest_{};
   ViewsFacts stored_;
   std::size_t stored_bytes_ = 0;

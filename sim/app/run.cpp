@@ -116,6 +116,7 @@ void add_run(CLI::App& app, const study::Catalogue& catalogue, Action& action) {
       ->check(some_text());
   command->add_option("--progress", o->progress, "auto, on or off")
       ->check(CLI::IsMember({"auto", "on", "off"}));
+  command->add_flag("!--no-cache", o->run.use_cache, "make views of trees again that an earlier run left in the cache, and leave none there");
   command->add_flag("--quiet", o->quiet, "print nothing");
   command->add_option("--jobs", o->jobs, "worker processes of --interval")->check(whole_number(1, 1024));
   command->add_option("--limit", machine.tick_limit, "ticks the processor may run in one start")

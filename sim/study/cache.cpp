@@ -3,26 +3,18 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
 
 #include "sim/base/sha256.h"
+#include "sim/study/file_cache.h"
 #include "sim/study/worker.h"
 
 namespace dendro::study {
 namespace {
 
 namespace fs = std::filesystem;
-
-std::string cache_root() {
-  if (const char* xdg = std::getenv("XDG_CACHE_HOME"); xdg && *xdg == '/')
-    return std::string(xdg) + "/dendro";
-  if (const char* home = std::getenv("HOME"); home && *home == '/')
-    return std::string(home) + "/.cache/dendro";
-  return "";
-}
 
 /// Digest of a file, or of its absence: the run itself says what is wrong with it.
 std::string digest_or_nothing(const std::string& path) {

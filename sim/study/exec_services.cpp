@@ -42,7 +42,7 @@ std::uint32_t free_number(const Map& files) {
 }  // namespace
 
 CallResult CallServices::call(std::uint32_t number, const std::array<std::uint32_t, 4>& a,
-                              std::vector<std::uint8_t>& memory) {
+                              base::ZeroedBytes& memory) {
   const bool inside = a[1] <= memory.size() && a[2] <= memory.size() - a[1];
   switch (number) {
     case kExit:
@@ -127,14 +127,43 @@ long HostServices::seek_file(std::uint32_t file, std::int32_t offset, std::uint3
   return host < 0 ? -kBadFile : or_error(::lseek(host, offset, static_cast<int>(from)));
 }
 
+std::size_t MemoryServices::Open::read(std::uint8_t* to, std::size_t count) const {
+  if (large != nullptr) return large->read(at, to, count);
+  const std::size_t from = std::min(at, bytes->size()), there = std::min(count, bytes->size() - from);
+  std::memcpy(to, bytes->data() + from, there);
+  return there;
+}
+
+void MemoryServices::Open::write(const std::uint8_t* from, std::size_t count) {
+  if (large != nullptr) return large->write(at, from, count);
+  if (bytes->size() < at + count) bytes->resize(at + count);
+  std::memcpy(bytes->data() + at, from, count);
+}
+
+void MemoryServices::Open::clear() {
+  if (large != nullptr)
+    large->clear();
+  else
+    bytes->clear();
+}
+
+MemoryServices::Open MemoryServices::find(const std::string& path) {
+  if (large_ != nullptr)
+    if (const auto found = large_->find(path); found != large_->end()) return {nullptr, &found->second, 0};
+  const auto found = files_.find(path);
+  return {found == files_.end() ? nullptr : &found->second, nullptr, 0};
+}
+
 long MemoryServices::open_file(const std::string& path, std::uint32_t flags, std::uint32_t) {
-  const bool there = files_.count(path) != 0;
+  Open opened = find(path);
+  const bool there = opened.bytes != nullptr || opened.large != nullptr;
   if (!there && !(flags & kCreate)) return -kNoEntry;
   if (there && (flags & kCreate) && (flags & kExclusive)) return -kExists;
-  std::vector<std::uint8_t>& bytes = files_[path];
-  if (flags & kTruncate) bytes.clear();
+  if (!there) opened.bytes = &files_[path];
+  if (flags & kTruncate) opened.clear();
+  if (flags & kAppend) opened.at = opened.size();
   const std::uint32_t file = free_number(open_);
-  open_[file] = {&bytes, (flags & kAppend) ? bytes.size() : 0};
+  open_[file] = opened;
   return file;
 }
 
@@ -145,9 +174,8 @@ long MemoryServices::read_file(std::uint32_t file, std::uint8_t* to, std::uint32
   const auto found = open_.find(file);
   if (found == open_.end()) return -kBadFile;
   Open& open = found->second;
-  const std::size_t at = std::min(open.at, open.bytes->size()), count = std::min<std::size_t>(bytes, open.bytes->size() - at);
-  std::memcpy(to, open.bytes->data() + at, count);
-  open.at = at + count;
+  const std::size_t count = open.read(to, bytes);
+  open.at += count;
   return static_cast<long>(count);
 }
 
@@ -159,8 +187,7 @@ long MemoryServices::write_file(std::uint32_t file, const std::uint8_t* from, st
   const auto found = open_.find(file);
   if (found == open_.end()) return -kBadFile;
   Open& open = found->second;
-  if (open.bytes->size() < open.at + bytes) open.bytes->resize(open.at + bytes);
-  std::memcpy(open.bytes->data() + open.at, from, bytes);
+  open.write(from, bytes);
   open.at += bytes;
   return bytes;
 }
@@ -169,7 +196,7 @@ long MemoryServices::seek_file(std::uint32_t file, std::int32_t offset, std::uin
   const auto found = open_.find(file);
   if (found == open_.end() || from > 2) return found == open_.end() ? -kBadFile : -kInvalid;
   Open& open = found->second;
-  const auto base = static_cast<std::int64_t>(from == 0 ? 0 : from == 1 ? open.at : open.bytes->size());
+  const auto base = static_cast<std::int64_t>(from == 0 ? 0 : from == 1 ? open.at : open.size());
   if (base + offset < 0) return -kInvalid;
   open.at = static_cast<std::size_t>(base + offset);
   return static_cast<long>(open.at);

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "models/parts/service_block/service_block.h"
+#include "sim/base/scratch_file.h"
 
 namespace dendro::study {
 
@@ -17,7 +18,7 @@ class CallServices : public service_block::Services {
   };
 
   service_block::CallResult call(std::uint32_t number, const std::array<std::uint32_t, 4>& arguments,
-                                 std::vector<std::uint8_t>& memory) final;
+                                 base::ZeroedBytes& memory) final;
 
   std::optional<int> exit_code;
   std::optional<Fault> fault;  ///< the monitor gave the program up
@@ -54,7 +55,7 @@ class HostServices : public CallServices {
   const bool shows_output_;
 };
 
-/// Files in memory, by name. Standard input is empty; what goes to standard output and error is kept as text.
+/// Files in memory, or for large ones on disk, by name. Standard input is empty; what goes to standard output and error is kept as text.
 class MemoryServices : public CallServices {
  public:
   using Files = std::map<std::string, std::vector<std::uint8_t>>;
@@ -62,7 +63,10 @@ class MemoryServices : public CallServices {
     std::uint32_t number = 0, label = 0;
   };
 
-  explicit MemoryServices(Files& files) : files_(files) {}
+  using LargeFiles = std::map<std::string, base::ScratchFile>;
+
+  /// A file that is named in `large` stays there, all others come to be in `files`.
+  explicit MemoryServices(Files& files, LargeFiles* large = nullptr) : files_(files), large_(large) {}
 
   std::string output, errors;
   std::vector<Mark> marks;
@@ -70,7 +74,13 @@ class MemoryServices : public CallServices {
  private:
   struct Open {
     std::vector<std::uint8_t>* bytes = nullptr;
+    base::ScratchFile* large = nullptr;  ///< instead of `bytes`
     std::size_t at = 0;
+
+    std::size_t size() const { return large != nullptr ? large->size() : bytes->size(); }
+    std::size_t read(std::uint8_t* to, std::size_t count) const;
+    void write(const std::uint8_t* from, std::size_t count);
+    void clear();
   };
 
   long open_file(const std::string& path, std::uint32_t flags, std::uint32_t mode) override;
@@ -80,7 +90,11 @@ class MemoryServices : public CallServices {
   long seek_file(std::uint32_t file, std::int32_t offset, std::uint32_t from) override;
   void mark(std::uint32_t number, std::uint32_t label) override { marks.push_back({number, label}); }
 
+  /// The file without its place; neither `bytes` nor `large` if there is none.
+  Open find(const std::string& path);
+
   Files& files_;
+  LargeFiles* const large_;
   std::map<std::uint32_t, Open> open_;  ///< the program's numbers from 3 on
 };
 

@@ -88,6 +88,7 @@ std::vector<LevelRow> compare_levels(const Catalogue& catalogue, const RunArgume
                                      std::max(0.0, budget - spent));
     } else {
       request.level = level;
+      request.use_cache = false;  // each level is to do all of its own work
       // `clocked` takes the ticks that `cycle` took.
       if (progress) progress->expect(level == Level::kClocked && before ? before->object.cycles : 0);
       const auto start = std::chrono::steady_clock::now();

@@ -249,6 +249,7 @@ void run_programs(const RunRequest& request, ProgramJob& job, const std::string&
   object.host = host_info(ticks, object.clock_hz, workstation.host_seconds());
   object.host.seconds = seconds;
   object.facts = job.facts();
+  object.notes.insert(object.notes.end(), workstation.notes().begin(), workstation.notes().end());
   // Counters of a run without time have no `cycles` that they would add up to.
   for (const UnitStats& u : workstation.units())
     for (const auto& [name, value] : u.values)
@@ -303,6 +304,7 @@ RunRequest prepare_run(const Catalogue& catalogue, const RunArguments& arguments
                       ? level_of(arguments.level, *request.type)
                       : level_of(file.level.value_or("cycle"), *request.type, file.level_where);
   request.options = arguments.options;
+  request.use_cache = arguments.use_cache;
   if (!request.options.vcd_file.empty() && request.level != Level::kClocked)
     throw UserError("--vcd", 0, "", "waveforms exist at --level clocked only");
   if (request.options.cost && request.level != Level::kCycle)

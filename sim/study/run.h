@@ -22,6 +22,7 @@ struct RunArguments {
   std::vector<std::string> settings;  ///< key=value
   std::optional<std::uint64_t> seed;
   MachineOptions options;
+  bool use_cache = true;
 };
 
 /// A run with everything resolved; plain data, safe to copy into workers.
@@ -33,6 +34,7 @@ struct RunRequest {
   config::Preset preset;  ///< with the overrides of scene and command line in its parameters
   Level level = Level::kCycle;
   MachineOptions options;
+  bool use_cache = true;  ///< take files that earlier runs prepared, and leave new ones
   bool with_picture =
       true;  ///< read the picture back and compare it; without, only time and counters are told
 };

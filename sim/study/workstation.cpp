@@ -5,18 +5,21 @@
 #include <algorithm>
 #include <chrono>
 #include <filesystem>
-#include <fstream>
 
 #include "sim/base/check.h"
 #include "sim/base/error.h"
+#include "sim/base/sha256.h"
 #include "sim/scene/image_io.h"
 #include "sim/study/exec_elf.h"
+#include "sim/study/file_cache.h"
 
 namespace dendro::study {
 namespace {
 
 constexpr std::uint32_t kLabel = 0x7002;
 constexpr double kPicturesASecond = 15;
+
+std::string untimed(const std::string& program) { return program + " (untimed)"; }
 
 std::string first_line(const std::string& text) { return text.substr(0, text.find('\n')); }
 
@@ -67,7 +70,7 @@ ElfWorkstation::ElfWorkstation(const RunRequest& request, const ProgramJob& job,
 
 void ElfWorkstation::run(const std::string& program, const std::vector<std::string>& arguments, bool timed) {
   if (progress_ != nullptr) progress_->phase(program);
-  MemoryServices services(files_);
+  MemoryServices services(files_, &large_files_);
   MachineOptions options = request_.options;
   if (recorded_) options.recorder = nullptr;
   recorded_ |= timed;
@@ -81,8 +84,26 @@ void ElfWorkstation::run(const std::string& program, const std::vector<std::stri
     add_units(units_, result.units);
     add(program, result, services.marks);
   } else {
-    add_phase(program + " (untimed)", 0);
+    add_phase(untimed(program), 0);
   }
+}
+
+void ElfWorkstation::make(const std::string& program, const std::vector<std::string>& arguments, const std::string& name,
+                          const std::string& made_from, const std::function<bool(const base::ScratchFile&)>& good) {
+  base::ScratchFile& file = large_file(name);
+  // A limit of instructions is there to be run into.
+  if (!request_.use_cache || request_.options.tick_limit != 0) return run(program, arguments, false);
+  const std::string key = base::sha256(fmt::format("{}\n{}\n{}\n{}\n{}\n{}", executable_digest(), base::sha256(shipped_program(program)),
+                                                   fmt::join(arguments, " "), name, main_bytes_of(request_.preset.parameters), made_from));
+  const FileCache cache;
+  if (cache.find(key, file) && good(file)) {
+    add_phase(untimed(program), 0);
+    notes_.push_back(fmt::format("{} was not run: its {} are those of an earlier run, from the cache (--no-cache makes them again)", program, name));
+    return;
+  }
+  file.clear();
+  run(program, arguments, false);
+  cache.store(key, file);
 }
 
 void ElfWorkstation::add(const std::string& program, const ProgramResult& result,
@@ -119,13 +140,10 @@ void ElfWorkstation::show(int width, int height, const std::vector<std::uint8_t>
   scene::write_png(pictures_.back(), {width, height, rgb});
 }
 
-void ElfWorkstation::keep(const std::string& name, const std::vector<std::uint8_t>& bytes) {
+void ElfWorkstation::keep(const std::string& name, const base::ScratchFile& file) {
   if (folder_.empty()) return;
   const std::string path = folder_ + "/" + name;
-  std::ofstream file(path, std::ios::binary | std::ios::trunc);
-  file.write(reinterpret_cast<const char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
-  file.close();
-  if (!file) throw UserError(path, 0, "", "cannot write here: the disk is full or the folder is missing or read-only");
+  if (!file.write_to(path)) throw UserError(path, 0, "", "cannot write here: the disk is full or the folder is missing or read-only");
 }
 
 void ElfWorkstation::finish() {

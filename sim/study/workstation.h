@@ -26,9 +26,12 @@ class ElfWorkstation : public Workstation {
   ElfWorkstation(const RunRequest& request, const ProgramJob& job, std::string folder, Progress* progress);
 
   std::vector<std::uint8_t>& file(const std::string& name) override { return files_[name]; }
+  base::ScratchFile& large_file(const std::string& name) override { return large_files_[name]; }
   void run(const std::string& program, const std::vector<std::string>& arguments, bool timed) override;
+  void make(const std::string& program, const std::vector<std::string>& arguments, const std::string& file, const std::string& made_from,
+            const std::function<bool(const base::ScratchFile&)>& good) override;
   void show(int width, int height, const std::vector<std::uint8_t>& rgb) override;
-  void keep(const std::string& name, const std::vector<std::uint8_t>& bytes) override;
+  void keep(const std::string& name, const base::ScratchFile& file) override;
 
   /// Joins the pictures that were shown, if there were several, to animation.gif.
   void finish();
@@ -39,6 +42,7 @@ class ElfWorkstation : public Workstation {
   double host_seconds() const { return host_seconds_; }         ///< that the host took for them
   const std::vector<Phase>& phases() const { return phases_; }  ///< "program.phase", each once, in the order of their first time
   const std::vector<UnitStats>& units() const { return units_; }
+  const std::vector<std::string>& notes() const { return notes_; }  ///< what a reader of the run should know
 
  private:
   void add(const std::string& program, const ProgramResult& result, const std::vector<MemoryServices::Mark>& calls);
@@ -49,6 +53,7 @@ class ElfWorkstation : public Workstation {
   const std::string folder_;
   Progress* progress_;
   MemoryServices::Files files_;
+  MemoryServices::LargeFiles large_files_;
   std::vector<std::string> pictures_;
   bool recorded_ = false;  ///< a trace is of the first timed program
   double clock_hz_ = 0;
@@ -57,6 +62,7 @@ class ElfWorkstation : public Workstation {
   double host_seconds_ = 0;
   std::vector<Phase> phases_;
   std::vector<UnitStats> units_;
+  std::vector<std::string> notes_;
 };
 
 }  // namespace dendro::study

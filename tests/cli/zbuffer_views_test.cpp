@@ -107,6 +107,73 @@ TEST_F(ZbufferViews, SavedViewsThatDoNotSuitAreOneLine) {
   expect_user_error("run t.toml --set zbuffer_views.precompute=timed", "zbuffer_views.precompute: has nothing to time");
 }
 
+/// All of a run but what its host did and where its files went.
+json simulated(json object) {
+  for (const char* key : {"host", "notes"}) object.erase(key);
+  object["image"].erase("path");
+  return object;
+}
+
+TEST_F(ZbufferViews, UntimedViewsAreMadeOnceAndTheRunIsTheSame) {
+  write("s.toml", scene(""));
+  const json made = run("s.toml --level cycle --out a");
+  EXPECT_EQ(0u, made["notes"].size());
+  const json kept = run("s.toml --level cycle --out b");
+  EXPECT_EQ(simulated(made), simulated(kept));
+  EXPECT_EQ(read("a/image.exr"), read("b/image.exr"));
+  ASSERT_EQ(1u, kept["notes"].size());
+  EXPECT_NE(std::string::npos, kept["notes"][0].get<std::string>().find("zbuffer_views_precompute was not run"));
+  EXPECT_EQ(0u, run("s.toml --level cycle --no-cache --out c")["notes"].size());
+  // Another camera looks at the same views, another tree or threshold has others; views that are timed are made.
+  EXPECT_EQ(1u, run("s.toml --set camera.height=4 --out c")["notes"].size());
+  for (const char* other : {"object.0.seed=7", "zbuffer_views.threshold=0.02", "zbuffer_views.layers=1", "zbuffer_views.precompute=timed"})
+    EXPECT_EQ(0u, run(std::string("s.toml --out c --set ") + other)["notes"].size()) << other;
+  const json again = run("a/resolved.toml --out d");
+  EXPECT_EQ(simulated(made)["phases"], simulated(again)["phases"]);
+}
+
+TEST_F(ZbufferViews, KeptViewsThatAreRottenCutOrAnothersAreMadeAgain) {
+  namespace fs = std::filesystem;
+  const auto kept_files = [&] {
+    std::vector<fs::path> files;
+    for (const auto& file : fs::directory_iterator(base_ / "cache/dendro/files")) files.push_back(file.path());
+    return files;
+  };
+  const auto bytes_of = [](const fs::path& path) {
+    std::ifstream in(path, std::ios::binary);
+    return std::string(std::istreambuf_iterator<char>(in), {});
+  };
+  write("s.toml", scene(""));
+  const json made = run("s.toml --out a");
+  ASSERT_EQ(1u, kept_files().size());
+  const fs::path file = kept_files()[0];
+  const std::string whole = bytes_of(file);
+  run("s.toml --set object.0.seed=7 --out o");
+  ASSERT_EQ(2u, kept_files().size());
+  const fs::path other = kept_files()[kept_files()[0] == file];
+  std::string rotten = whole;
+  rotten[whole.size() / 2] ^= 4;
+  for (const std::string& bytes : {rotten, whole.substr(0, whole.size() - 3), whole + "x", bytes_of(other), std::string()}) {
+    std::ofstream(file, std::ios::binary | std::ios::trunc) << bytes;
+    const json again = run("s.toml --out b");
+    EXPECT_EQ(simulated(made), simulated(again));
+    EXPECT_EQ(0u, again["notes"].size());
+    EXPECT_EQ(whole, bytes_of(file));
+  }
+}
+
+TEST_F(ZbufferViews, RunsAtTheSameTimeShareTheCache) {
+  write("s.toml", scene(""));
+  std::string line;
+  for (int i = 0; i < 4; ++i)
+    line += "(cd '" + folder_.string() + "' && XDG_CACHE_HOME='" + (base_ / "cache").string() + "' '" DENDRO "' run s.toml --quiet --out r" +
+            std::to_string(i) + ") & ";
+  ASSERT_EQ(0, std::system((line + "wait").c_str()));
+  const json wanted = simulated(json::parse(read("r0/stats.json")));
+  for (const char* other : {"r1", "r2", "r3"}) EXPECT_EQ(wanted, simulated(json::parse(read(std::string(other) + "/stats.json")))) << other;
+  EXPECT_EQ(1u, run("s.toml --out r")["notes"].size());
+}
+
 TEST_F(ZbufferViews, WhatCannotBeDrawnIsOneLine) {
   write("s.toml", scene(""));
   expect_user_error("run s.toml --set zbuffer_views.layers=0", "zbuffer_views.layers: ");

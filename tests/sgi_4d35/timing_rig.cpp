@@ -113,7 +113,7 @@ ProgramImage image_of(const Memory& memory, std::uint32_t start) {
   return image;
 }
 
-std::uint64_t digest_of(const std::vector<std::uint8_t>& bytes) {
+std::uint64_t digest_of(const base::ZeroedBytes& bytes) {
   std::uint64_t digest = 0xCBF29CE484222325;  // FNV-1a
   for (const std::uint8_t byte : bytes) digest = (digest ^ byte) * 0x100000001B3;
   return digest;

@@ -69,14 +69,14 @@ struct Ran {
 };
 
 ProgramImage image_of(const Memory& memory, std::uint32_t start);
-std::uint64_t digest_of(const std::vector<std::uint8_t>& bytes);
+std::uint64_t digest_of(const base::ZeroedBytes& bytes);
 
 /// Any call stops the machine.
 struct StopService : service_block::Services {
   std::uint64_t digest = 0;  ///< of main memory at the call
 
   service_block::CallResult call(std::uint32_t, const std::array<std::uint32_t, 4>&,
-                                 std::vector<std::uint8_t>& memory) override {
+                                 base::ZeroedBytes& memory) override {
     digest = digest_of(memory);
     return {0, false, true};
   }

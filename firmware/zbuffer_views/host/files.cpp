@@ -151,13 +151,21 @@ Bytes job_file(const Prepared& p, const Digest& digest, std::size_t first, std::
   return file;
 }
 
-ViewsFacts check_views(const Bytes& file, const Prepared& p, const Digest& digest, const std::string& path) {
+std::string views_made_from(const Bytes& tree, const ViewSettings& v) {
+  return fmt::format("{} {} {} {} {} {:a} {:a} {} {}", base::sha256(std::string_view(reinterpret_cast<const char*>(tree.data()), tree.size())), v.bands,
+                     v.layers, v.width, v.height, v.pitch, v.threshold, v.peel, v.early);
+}
+
+namespace {
+
+/// `file` is the start of one of `size` bytes.
+ViewsFacts check_start(const Bytes& file, std::size_t size, const Prepared& p, const Digest& digest, const std::string& path) {
   const auto fail = [&](const std::string& message) { throw UserError(path, 0, "", message); };
   if (file.size() < sizeof(zbv_head) || word_at(file, 0) != kZbvViewsMagic) fail("is no file of stored views");
   const auto head = get<zbv_head>(file, 0);
   if (head.version != kZbvVersion) fail(fmt::format("has version {}, this dendro reads {}", head.version, int(kZbvVersion)));
-  if (head.bytes != file.size() || file.size() < sizeof(zbv_views))
-    fail(fmt::format("is truncated or damaged: {} bytes instead of {}", file.size(), head.bytes));
+  if (head.bytes != size || file.size() < sizeof(zbv_views))
+    fail(fmt::format("is truncated or damaged: {} bytes instead of {}", size, head.bytes));
   if (!same_digest(head, digest)) fail("holds views of another tree than the scene's");
   const auto facts = get<zbv_views>(file, 0);
   const auto want = [&](const char* what, double has, double wanted) {
@@ -173,9 +181,19 @@ ViewsFacts check_views(const Bytes& file, const Prepared& p, const Digest& diges
   if (p.views.pitch > 0) want("pitch", facts.pitch, p.views.pitch);
   const std::size_t samples = std::size_t{facts.width} * facts.height * facts.layers * facts.views;
   const std::size_t bytes = sizeof facts + facts.colours * sizeof(zbv_colour) + facts.views * sizeof(zbv_view) + samples * kZbvSampleBytes;
-  if (facts.views != view_directions(p.views.bands).size() || bytes != file.size())
-    fail(fmt::format("is damaged: its counts need {} bytes, it has {}", bytes, file.size()));
+  if (facts.views != view_directions(p.views.bands).size() || bytes != size)
+    fail(fmt::format("is damaged: its counts need {} bytes, it has {}", bytes, size));
   return {facts.views, facts.pitch};
+}
+
+}  // namespace
+
+ViewsFacts check_views(const base::ScratchFile& file, const Prepared& p, const Digest& digest, const std::string& path) {
+  return check_start(file.start(sizeof(zbv_views)), file.size(), p, digest, path);
+}
+
+ViewsFacts check_views(const Bytes& file, const Prepared& p, const Digest& digest, const std::string& path) {
+  return check_start(file, file.size(), p, digest, path);
 }
 
 std::vector<DrawnPicture> read_pictures(const Bytes& file, const Prepared& p, const Digest& digest) {

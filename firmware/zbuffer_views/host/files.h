@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "firmware/zbuffer_views/host/prepared.h"
+#include "sim/base/scratch_file.h"
 
 namespace dendro::zbuffer_views {
 
@@ -20,6 +21,9 @@ Digest digest_of(const Bytes& tree_file);
 /// The job of the frames [first, first + count). A pitch of 0 leaves V3 to the program.
 Bytes job_file(const Prepared& prepared, const Digest& digest, std::size_t first, std::size_t count);
 
+/// Tells apart all that the views of a tree are made from.
+std::string views_made_from(const Bytes& tree_file, const ViewSettings& views);
+
 /// What of a file of views the scene needs.
 struct ViewsFacts {
   std::uint32_t views = 0;
@@ -28,6 +32,7 @@ struct ViewsFacts {
 
 /// Checks that saved views are whole, of this version, of this tree and made as the scene wants them. Throws UserError naming
 /// `path`.
+ViewsFacts check_views(const base::ScratchFile& file, const Prepared& prepared, const Digest& digest, const std::string& path);
 ViewsFacts check_views(const Bytes& file, const Prepared& prepared, const Digest& digest, const std::string& path);
 
 /// One drawn frame, row-major, the highest row first.

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <cstring>
-#include <vector>
 
 #include "models/machines/sgi_4d35/sgi_4d35.h"
 #include "models/parts/r3000/r3000_isa.h"
@@ -11,7 +10,7 @@ namespace dendro::sgi_4d35 {
 
 /// Main memory as bytes and the service block: what the processor's addresses reach. All are physical.
 struct Board {
-  std::vector<std::uint8_t> memory;
+  base::ZeroedBytes memory;
   service_block::Services& services;
   const service_block::Program& program;
   service_block::State block;

@@ -4,7 +4,7 @@ namespace dendro::sgi_4d35 {
 
 service_block::CallResult MarkedServices::call(std::uint32_t number,
                                                const std::array<std::uint32_t, 4>& arguments,
-                                               std::vector<std::uint8_t>& memory) {
+                                               base::ZeroedBytes& memory) {
   if (number >= DENDRO_MARK_START && number <= DENDRO_MARK_LABEL) mark_ = ProgramMark{number, arguments[0]};
   return inner_.call(number, arguments, memory);
 }

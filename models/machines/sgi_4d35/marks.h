@@ -12,7 +12,7 @@ class MarkedServices : public service_block::Services {
  public:
   explicit MarkedServices(service_block::Services& inner) : inner_(inner) {}
   service_block::CallResult call(std::uint32_t number, const std::array<std::uint32_t, 4>& arguments,
-                                 std::vector<std::uint8_t>& memory) override;
+                                 base::ZeroedBytes& memory) override;
   /// The mark called since the last time, without its instructions and cycles.
   std::optional<ProgramMark> take();
 

@@ -31,7 +31,7 @@ bool read(const State& state, const Program& program, std::uint32_t memory_bytes
   }
 }
 
-bool write(State& state, Services& services, std::vector<std::uint8_t>& memory, std::uint32_t offset,
+bool write(State& state, Services& services, base::ZeroedBytes& memory, std::uint32_t offset,
            std::uint32_t value) {
   if (offset == DENDRO_SERVICE_CALL) {
     state.last = services.call(value, state.arguments, memory);

@@ -2,9 +2,9 @@
 
 #include <array>
 #include <cstdint>
-#include <vector>
 
 #include "models/parts/service_block/service_block_isa.h"
+#include "sim/base/zeroed_bytes.h"
 
 namespace dendro::service_block {
 
@@ -19,7 +19,7 @@ class Services {
  public:
   virtual ~Services() = default;
   virtual CallResult call(std::uint32_t number, const std::array<std::uint32_t, 4>& arguments,
-                          std::vector<std::uint8_t>& memory) = 0;
+                          base::ZeroedBytes& memory) = 0;
 };
 
 /// What the monitor asks about the program.
@@ -36,7 +36,7 @@ struct State {
 /// True if a register lies there; `offset` from DENDRO_SERVICE_BASE.
 bool read(const State& state, const Program& program, std::uint32_t memory_bytes, std::uint32_t offset,
           std::uint32_t& value);
-bool write(State& state, Services& services, std::vector<std::uint8_t>& memory, std::uint32_t offset,
+bool write(State& state, Services& services, base::ZeroedBytes& memory, std::uint32_t offset,
            std::uint32_t value);
 
 }  // namespace dendro::service_block
