@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cstdlib>
+#include <memory>
 
 #include "models/parts/r3000/r3000_isa.h"
 #include "sim/base/check.h"
@@ -14,6 +15,7 @@
 #include "sim/study/algorithms.h"
 #include "sim/study/elf.h"
 #include "sim/study/exec_services.h"
+#include "sim/study/gdb_socket.h"
 
 namespace dendro::study {
 namespace {
@@ -155,18 +157,27 @@ ExecOutput exec_elf(const Catalogue& catalogue, const ExecArguments& arguments) 
     throw UserError("--profile", 0, "", "profiles exist at --level cycle only");
   if (!arguments.options.pipeline_file.empty() && level != Level::kClocked)
     throw UserError("--pipeline", 0, "", "pipeline logs exist at --level clocked only");
+  if (arguments.gdb_port && level != Level::kFunction && level != Level::kCycle)
+    throw UserError("--gdb", 0, "", "programs stop between words at --level function and cycle only");
   const ElfProgram program = read_elf(config::read_text({false, arguments.program}, {}), arguments.program);
   const std::uint32_t main_bytes = main_bytes_of(preset.parameters);
   const ProgramImage image = place_program(program, arguments, main_bytes);
   const auto limit = arguments.options.tick_limit == 0 ? kDefaultTickLimit : arguments.options.tick_limit;
   HostServices services;
+  std::unique_ptr<GdbSocket> gdb;
+  if (arguments.gdb_port) {
+    gdb = std::make_unique<GdbSocket>(*arguments.gdb_port, [&services] { return services.exit_code; });
+    fmt::print(stderr, "waiting for GDB on 127.0.0.1:{}\n", gdb->port());
+  }
   const auto start = std::chrono::steady_clock::now();
   MachineOptions options = arguments.options;
   std::map<std::uint32_t, WordClocks> words;
   if (arguments.profile) options.word_clocks = &words;
+  options.debugger = gdb.get();
   const ProgramResult result =
       type.exec(preset.parameters, level, image, services, static_cast<std::uint64_t>(limit), options);
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  if (gdb && gdb->killed()) throw UserError(arguments.program, 0, "", "GDB ended the program");
   const std::string wrong = ending_error(services, result, program, static_cast<std::uint64_t>(limit));
   if (!wrong.empty()) throw UserError(arguments.program, 0, "", wrong);
   ExecOutput output;

@@ -1,6 +1,7 @@
 #include "models/machines/sgi_4d35/cycle.h"
 
 #include "models/machines/sgi_4d35/board.h"
+#include "models/machines/sgi_4d35/debug.h"
 #include "models/machines/sgi_4d35/marks.h"
 #include "models/machines/sgi_4d35/pipeline.h"
 #include "models/parts/r3000/r3000.h"
@@ -38,14 +39,17 @@ ProgramResult run_cycle(const Spec& spec, const ProgramImage& image, service_blo
   Log log(options);
   if (log.wanted()) core.time().listen(&log);
   std::vector<ProgramMark> marks;
-  for (std::uint64_t left = limit; left != 0 && !port.stopped();) {
-    left = core.run_to_service(left);
+  const auto run = [&](std::uint64_t words) {
+    words = core.run_to_service(words);
     if (auto mark = marked.take()) {
       mark->instructions = core.state().instructions - 1;
       mark->cycles = static_cast<std::int64_t>(core.time().bias);
       marks.push_back(*mark);
     }
-  }
+    return words;
+  };
+  std::uint64_t left = debugged(options.machine.debugger, core, run, port, limit);
+  while (left != 0 && !port.stopped()) left = run(left);
   const r3000::State& state = core.state();
   ProgramResult result = result_of(state, port, spec);
   Counters counters;
