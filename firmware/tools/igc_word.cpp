@@ -86,6 +86,17 @@ void IgcWordBuilder::use_y(const Token& token, Operand y) {
   y_ = word_.y = y;
 }
 
+void IgcWordBuilder::operand_pair() {
+  expect("(");
+  const Token first = now();
+  const Operand x = operand();
+  expect(",");
+  const Token second = now();
+  const Operand y = operand();
+  expect(")");
+  use_x(first, x), use_y(second, y);
+}
+
 // enable = 1 | enable & carry | enable & ~carry
 void IgcWordBuilder::enable_part(const Token& start) {
   expect("=");
@@ -117,14 +128,7 @@ void IgcWordBuilder::carry_part(const Token& start) {
     use_x(name, operand());
   } else {
     use_known(name, known_.carry, "carry");
-    expect("(");
-    const Token first = now();
-    const Operand x = operand();
-    expect(",");
-    const Token second = now();
-    const Operand y = operand();
-    expect(")");
-    use_x(first, x), use_y(second, y);
+    operand_pair();
   }
   set_.carry = true;
 }
@@ -168,14 +172,7 @@ void IgcWordBuilder::write_part(const Token& start) {
     use_known(value, known_.carry, "carry");
     source = Source::kSum;
     if (value.is("sum")) {
-      expect("(");
-      const Token first = now();
-      const Operand x = operand();
-      expect(",");
-      const Token second = now();
-      const Operand y = operand();
-      expect(")");
-      use_x(first, x), use_y(second, y);
+      operand_pair();
     } else {
       use_x(value, Operand::kZero), use_y(value, Operand::kZero);
     }

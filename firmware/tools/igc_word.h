@@ -64,6 +64,7 @@ class IgcWordBuilder {
   igc::Operand operand();
   void use_x(const Token& token, igc::Operand x);
   void use_y(const Token& token, igc::Operand y);
+  void operand_pair();  ///< (x, y)
   void use_function(const Token& token, igc::Function function);
   void use_known(const Token& token, bool known, const char* name) const;
 

@@ -10,6 +10,7 @@
 #include <fstream>
 #include <iterator>
 #include <nlohmann/json.hpp>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -55,6 +56,16 @@ class CommandTest : public ::testing::Test {
                              out + "'; } | cat >'" + err + "'";
     const int status = std::system(line.c_str());
     return {WIFEXITED(status) ? std::atoi(text_of(out).c_str()) : 1000, "", text_of(err)};
+  }
+
+  /// The object that `dendro run` writes with these arguments; its files are gone again.
+  nlohmann::json ran(const std::string& arguments) const {
+    const Result run = dendro("run " + arguments + " --out o --json o.json --quiet");
+    if (run.status != 0) throw std::runtime_error(arguments + ": exit " + std::to_string(run.status) + "\n" + run.err);
+    const nlohmann::json object = nlohmann::json::parse(read("o.json"));
+    std::filesystem::remove_all(folder_ / "o");
+    std::filesystem::remove(folder_ / "o.json");
+    return object;
   }
 
   void write(const std::string& name, const std::string& text) const {

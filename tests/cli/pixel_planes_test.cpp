@@ -9,17 +9,13 @@ using json = nlohmann::json;
 TEST_F(PixelPlanes, RunsTheScenesOfTheFrameBuffer) {
   for (const char* scene : {"icosahedron", "figure5", "grove", "aspen-hull"}) {
     SCOPED_TRACE(scene);
-    const Result run = dendro(std::string("run ") + scene + " --machine pixel-planes --out o --json o.json --quiet");
-    ASSERT_EQ(0, run.status) << run.err;
-    const json object = json::parse(read("o.json"));
+    const json object = ran(std::string(scene) + " --machine pixel-planes");
     EXPECT_EQ("pixel-planes", object["machine"]);
     EXPECT_EQ("pxpl4", object["preset"]);
     EXPECT_LT(0, object["cycles"].get<std::int64_t>());
     EXPECT_LT(object["error"]["wrong_pixels"].get<double>(), object["error"]["covered_pixels"].get<double>() / 1000);
     const json array = object["units"]["pixel_planes.array"];
     EXPECT_LE(array["evaluated_pixel_operations"].get<double>(), array["pixel_operations"].get<double>());
-    std::filesystem::remove_all(folder_ / "o");
-    std::filesystem::remove(folder_ / "o.json");
   }
 }
 
@@ -45,10 +41,8 @@ TEST_F(PixelPlanes, ALargePictureIsDrawnInTilesByRenderersAtOnce) {
   std::string digest;
   for (const char* renderers : {"1", "4", "16"}) {
     SCOPED_TRACE(renderers);
-    const Result run = dendro(std::string("run grove --machine pixel-planes:pxpl5 --set parameters.host.program_load_ms=0") +
-                              " --set parameters.renderers.count=" + renderers + " --out o --json o.json --quiet");
-    ASSERT_EQ(0, run.status) << run.err;
-    const json object = json::parse(read("o.json"));
+    const json object = ran(std::string("grove --machine pixel-planes:pxpl5 --set parameters.host.program_load_ms=0") +
+                            " --set parameters.renderers.count=" + renderers);
     EXPECT_EQ(0, object["error"]["wrong_pixels"]);
     EXPECT_EQ(16, object["facts"]["tiles"]);
     EXPECT_LT(object["cycles"].get<std::int64_t>(), last);
@@ -59,8 +53,6 @@ TEST_F(PixelPlanes, ALargePictureIsDrawnInTilesByRenderersAtOnce) {
     digest = object["image"]["sha256"].get<std::string>();
     const std::string busiest = object["busiest"]["unit"];
     EXPECT_EQ(0u, busiest.rfind(renderers == std::string("16") ? "pixel_planes.host" : "pixel_planes.controller", 0)) << busiest;
-    std::filesystem::remove_all(folder_ / "o");
-    std::filesystem::remove(folder_ / "o.json");
   }
 }
 
@@ -73,6 +65,7 @@ TEST_F(PixelPlanes, WhatDoesNotFitIsOneLine) {
   expect_user_error(run + "half_space.variant=scratch", "half_space.variant: the scratch copy needs a memory with two ports");
   expect_user_error(run + "parameters.array.width=256", "image.width: 512 is more than the 256 pixels of the array");
   expect_user_error(run + "parameters.array.width=300", "array.width: must be a power of two");
+  expect_user_error(run + "half_space.guard_bits=23", "half_space.guard_bits: 16 depth, 10 fraction and 23 guard bits do not fit a stream of 48 bits");
   expect_user_error(run + "parameters.array.ports=3", "array.ports");
   expect_user_error(run + "parameters.tree.masked=false", "tree.gap_clocks: without masks an expression runs into the next unless 8 clocks or more lie between");
   expect_user_error(run + "parameters.array.memory_bit=3", "did you mean `array.memory_bits`?");

@@ -102,6 +102,13 @@ TEST(PixelPlanesScenes, EqualisationIsEqualWhicheverWayRegionsAreSent) {
   }
 }
 
+TEST(PixelPlanesScenes, TexturesAreEqual) {
+  const Settings settings = {"parameters.host.program_load_ms=0.1", "raster_primitives.patch_steps=1",
+                             "raster_primitives.texture_size=16"};
+  expect_levels_equal("textured", settings);
+  expect_levels_equal("textured", settings, "pixel-planes:pxpl5");
+}
+
 /// The picture at level `clocked`, by the route of `dendro run`.
 std::vector<std::uint8_t> clocked_picture(const std::string& gap) {
   const study::Catalogue all{{pixel_planes_type()}, study::algorithms(), SHARE};

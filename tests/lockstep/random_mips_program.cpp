@@ -349,10 +349,4 @@ Spec corner_spec(std::uint32_t seed) {
 
 CornerProgram corner_program(std::uint32_t seed) { return Generator(seed).make(); }
 
-service_block::CallResult ExitService::call(std::uint32_t, const std::array<std::uint32_t, 4>&,
-                                            std::vector<std::uint8_t>& memory) {
-  digest = digest_of(memory);
-  return {0, false, true};
-}
-
 }  // namespace dendro::sgi_4d35

@@ -19,11 +19,4 @@ CornerProgram corner_program(std::uint32_t seed);
 /// Timing parameters drawn from their ranges, caches of 1 to 8 KB.
 Spec corner_spec(std::uint32_t seed);
 
-/// Ends the machine at any call.
-struct ExitService : service_block::Services {
-  std::uint64_t digest = 0;  ///< of memory
-  service_block::CallResult call(std::uint32_t number, const std::array<std::uint32_t, 4>& arguments,
-                                 std::vector<std::uint8_t>& memory) override;
-};
-
 }  // namespace dendro::sgi_4d35

@@ -5,7 +5,6 @@
 #include <algorithm>
 
 #include "models/machines/sgi_4d35/cycle.h"
-#include "tests/lockstep/random_mips_program.h"
 
 namespace dendro::sgi_4d35 {
 namespace {
@@ -16,33 +15,6 @@ std::string retired_difference(const std::vector<Retired>& a, const std::vector<
       return fmt::format("word {}: 0x{:08x} in clock {}{}; 0x{:08x} in clock {}{}", i, a[i].pc, a[i].clock,
                          a[i].killed ? " killed" : "", b[i].pc, b[i].clock, b[i].killed ? " killed" : "");
   if (a.size() != b.size()) return fmt::format("{} and {} words left MEM", a.size(), b.size());
-  return "";
-}
-
-std::string state_difference(const r3000::State& a, const r3000::State& b) {
-  for (unsigned i = 1; i < 32; ++i)
-    if (a.r[i] != b.r[i]) return fmt::format("r{}: 0x{:08x} and 0x{:08x}", i, a.r[i], b.r[i]);
-  for (unsigned i = 0; i < 32; ++i)
-    if (a.fpu.r[i] != b.fpu.r[i]) return fmt::format("f{}: 0x{:08x} and 0x{:08x}", i, a.fpu.r[i], b.fpu.r[i]);
-  const std::pair<const char*, std::pair<std::uint32_t, std::uint32_t>> rest[] = {
-      {"hi", {a.hi, b.hi}},
-      {"lo", {a.lo, b.lo}},
-      {"pc", {a.pc, b.pc}},
-      {"next_pc", {a.next_pc, b.next_pc}},
-      {"fcr31", {a.fpu.control, b.fpu.control}},
-      {"Status", {a.status, b.status}},
-      {"Cause", {cause_of(a), cause_of(b)}},
-      {"EPC", {a.epc, b.epc}},
-      {"BadVAddr", {a.bad_vaddr, b.bad_vaddr}},
-      {"EntryHi", {a.entry_hi, b.entry_hi}},
-      {"EntryLo", {a.entry_lo, b.entry_lo}},
-      {"Index", {a.index, b.index}},
-      {"Context", {a.context, b.context}}};
-  for (const auto& [name, values] : rest)
-    if (values.first != values.second)
-      return fmt::format("{}: 0x{:08x} and 0x{:08x}", name, values.first, values.second);
-  for (unsigned i = 0; i < r3000::kTlbEntries; ++i)
-    if (a.tlb[i].hi != b.tlb[i].hi || a.tlb[i].lo != b.tlb[i].lo) return fmt::format("TLB entry {}", i);
   return "";
 }
 
@@ -60,7 +32,7 @@ std::string counter_difference(const Ran& a, const Ran& b) {
 
 Ran run_unlogged(const Spec& spec, const ProgramImage& image, std::uint64_t limit) {
   Ran ran;
-  ExitService services;
+  StopService services;
   RunOptions options;
   options.final_state = &ran.state;
   const ProgramResult result = run_cycle(spec, image, services, limit, options);

@@ -9,13 +9,6 @@
 namespace dendro::sgi_4d35 {
 namespace {
 
-struct Stop : service_block::Services {
-  service_block::CallResult call(std::uint32_t, const std::array<std::uint32_t, 4>&,
-                                 std::vector<std::uint8_t>&) override {
-    return {0, false, true};
-  }
-};
-
 /// Passes over 512 KB by a stride that misses often and now and then hits, products and sums that overlap, a store
 /// behind a branch that the data decides.
 ProgramImage stream(int passes) {
@@ -47,7 +40,7 @@ std::uint64_t value(const ProgramResult& result, const std::string& name) {
 
 TEST(Sgi4d35Estimate, TheTrueCountLiesInTheIntervalAndNear) {
   const ProgramImage image = stream(40);
-  Stop services;
+  StopService services;
   const ProgramResult exact = run_cycle(small(), image, services, UINT64_MAX, {});
   ASSERT_TRUE(exact.stopped);
   ASSERT_GT(exact.instructions, 5000000u);
@@ -68,7 +61,7 @@ TEST(Sgi4d35Estimate, TheTrueCountLiesInTheIntervalAndNear) {
 
 TEST(Sgi4d35Estimate, AShortProgramIsExact) {
   const ProgramImage image = stream(1);
-  Stop services;
+  StopService services;
   const ProgramResult exact = run_cycle(small(), image, services, 5000, {});
   const ProgramResult estimate = run_estimate(small(), image, services, 5000);
   EXPECT_EQ(exact.cycles, estimate.cycles);
@@ -77,7 +70,7 @@ TEST(Sgi4d35Estimate, AShortProgramIsExact) {
 
 TEST(Sgi4d35Estimate, TheSameSeedGivesTheSameCount) {
   const ProgramImage image = stream(2);
-  Stop services;
+  StopService services;
   EXPECT_EQ(run_estimate(small(), image, services, UINT64_MAX).cycles,
             run_estimate(small(), image, services, UINT64_MAX).cycles);
 }

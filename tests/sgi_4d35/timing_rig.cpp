@@ -1,5 +1,6 @@
 #include "tests/sgi_4d35/timing_rig.h"
 
+#include <fmt/format.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -13,16 +14,6 @@ namespace dendro::sgi_4d35 {
 namespace {
 
 constexpr std::uint32_t kProgram = 0x80010800;  // not at the vectors' indices of the cache
-
-class Stop : public service_block::Services {
- public:
-  service_block::CallResult call(std::uint32_t, const std::array<std::uint32_t, 4>&,
-                                 std::vector<std::uint8_t>& memory) override {
-    digest = digest_of(memory);
-    return {0, false, true};
-  }
-  std::uint64_t digest = 0;
-};
 
 void put(int file, const void* bytes, std::size_t count) {
   for (const char* at = static_cast<const char*>(bytes); count != 0;) {
@@ -55,7 +46,7 @@ std::vector<std::uint8_t> bytes_of(const Words& words) {
 }
 
 void run_and_send(int file, Level level, const Spec& spec, const ProgramImage& image, std::uint64_t limit) {
-  Stop services;
+  StopService services;
   RunOptions options;
   std::vector<Retired> retired;
   r3000::State state;
@@ -158,6 +149,41 @@ Ran run_words(Level level, const Spec& spec, const Memory& memory, std::uint32_t
   waitpid(child, nullptr, 0);
   if (!problem.empty()) throw std::runtime_error(problem);
   return ran;
+}
+
+std::string state_difference(const r3000::State& a, const r3000::State& b) {
+  for (unsigned i = 0; i < 32; ++i)
+    if (a.r[i] != b.r[i]) return fmt::format("r{}: 0x{:08x} and 0x{:08x}", i, a.r[i], b.r[i]);
+  for (unsigned i = 0; i < 32; ++i)
+    if (a.fpu.r[i] != b.fpu.r[i]) return fmt::format("f{}: 0x{:08x} and 0x{:08x}", i, a.fpu.r[i], b.fpu.r[i]);
+  const std::pair<const char*, std::pair<std::uint32_t, std::uint32_t>> rest[] = {
+      {"hi", {a.hi, b.hi}},
+      {"lo", {a.lo, b.lo}},
+      {"pc", {a.pc, b.pc}},
+      {"next_pc", {a.next_pc, b.next_pc}},
+      {"fcr31", {a.fpu.control, b.fpu.control}},
+      {"Status", {a.status, b.status}},
+      {"Cause", {a.cause, b.cause}},
+      {"EPC", {a.epc, b.epc}},
+      {"BadVAddr", {a.bad_vaddr, b.bad_vaddr}},
+      {"EntryHi", {a.entry_hi, b.entry_hi}},
+      {"EntryLo", {a.entry_lo, b.entry_lo}},
+      {"Index", {a.index, b.index}},
+      {"Context", {a.context, b.context}},
+      {"in_slot", {a.in_slot, b.in_slot}},
+      {"lines", {a.lines, b.lines}}};
+  for (const auto& [name, values] : rest)
+    if (values.first != values.second)
+      return fmt::format("{}: 0x{:08x} and 0x{:08x}", name, values.first, values.second);
+  const std::pair<const char*, std::pair<std::uint64_t, std::uint64_t>> events[] = {
+      {"instructions", {a.instructions, b.instructions}},
+      {"exceptions", {a.exceptions, b.exceptions}},
+      {"tlb_refills", {a.tlb_refills, b.tlb_refills}}};
+  for (const auto& [name, values] : events)
+    if (values.first != values.second) return fmt::format("{}: {} and {}", name, values.first, values.second);
+  for (unsigned i = 0; i < r3000::kTlbEntries; ++i)
+    if (a.tlb[i].hi != b.tlb[i].hi || a.tlb[i].lo != b.tlb[i].lo) return fmt::format("TLB entry {}", i);
+  return "";
 }
 
 void expect_counters(const Ran& ran, const std::map<std::string, std::uint64_t>& expected) {

@@ -71,6 +71,17 @@ struct Ran {
 ProgramImage image_of(const Memory& memory, std::uint32_t start);
 std::uint64_t digest_of(const std::vector<std::uint8_t>& bytes);
 
+/// Any call stops the machine.
+struct StopService : service_block::Services {
+  std::uint64_t digest = 0;  ///< of main memory at the call
+
+  service_block::CallResult call(std::uint32_t, const std::array<std::uint32_t, 4>&,
+                                 std::vector<std::uint8_t>& memory) override {
+    digest = digest_of(memory);
+    return {0, false, true};
+  }
+};
+
 /// Runs what is in memory from `start` on, at most `limit` words; a store to the service block's first word
 /// ends it.
 Ran run_words(Level level, const Spec& spec, const Memory& memory, std::uint32_t start, std::uint64_t limit);
@@ -92,6 +103,9 @@ struct Timed {
 };
 
 using Clocks = std::vector<std::int64_t>;
+
+/// The first register, count of events or TLB entry in which two states differ; empty if none.
+std::string state_difference(const r3000::State& a, const r3000::State& b);
 
 void expect_counters(const Ran& ran, const std::map<std::string, std::uint64_t>& expected);
 

@@ -118,7 +118,11 @@ class Preparation {
     edge_fraction_ = static_cast<unsigned>(options_.integer("edge_fraction_bits", 16, 0, 24));
     options_.choice("variant", "two_stream", {"two_stream", "scratch"});
     options_.choice("colouring", "recolour", {"recolour", "index"});
-    options_.integer("depth_bits", 16, 6, 24);
+    const auto depth_bits = static_cast<unsigned>(options_.integer("depth_bits", 16, 6, 24));
+    if (depth_bits + fraction_ + least_guard_ > kMostStreamBits)
+      options_.fail(options_.has("guard_bits") ? "guard_bits" : "fraction_bits",
+                    fmt::format("{} depth, {} fraction and {} guard bits do not fit a stream of {} bits", depth_bits,
+                                fraction_, least_guard_, kMostStreamBits));
   }
 
   void take(const scene::Object& object, std::uint64_t seed) {

@@ -18,7 +18,7 @@ Work flops(std::uint64_t count) {
   return work;
 }
 
-/// One tile, piece by piece: triangles, spheres, shadows.
+/// One tile, piece by piece: triangles, spheres, texels, shadows.
 class TileRun {
  public:
   TileRun(HostPort& host, lib::IgcDriver& driver, const Prepared& prepared, const TileDrawing& drawing, bool tiled)
@@ -27,19 +27,24 @@ class TileRun {
   /// Shadows begin with a piece that clears their bit.
   lib::TileWork work() const {
     lib::TileWork work;
-    work.pieces = drawing_.triangles.size() + drawing_.spheres.size();
-    work.weight = 7 * drawing_.triangles.size() + 16 * drawing_.spheres.size() + 5 * drawing_.shadows.size();
+    work.pieces = drawing_.triangles.size() + drawing_.spheres.size() + texels();
+    work.weight = 7 * drawing_.triangles.size() + 16 * drawing_.spheres.size() + 5 * drawing_.shadows.size() + texels();
     if (prepared_.layout.shadows) work.pieces += 1 + drawing_.shadows.size();
     return work;
   }
 
-  void begin() { driver_.run("clear_picture", clear_constant(prepared_)); }
+  void begin() {
+    driver_.run("clear_picture", clear_constant(prepared_));
+    if (prepared_.layout.texture_bits > 0) driver_.run("clear_texture");
+  }
 
   void send(std::size_t k) {
     if (k < drawing_.triangles.size()) return triangle(k);
     k -= drawing_.triangles.size();
     if (k < drawing_.spheres.size()) return sphere(k);
     k -= drawing_.spheres.size();
+    if (k < texels()) return texel(k);
+    k -= texels();
     if (k == 0) driver_.run("clear_shadow");
     if (k > 0) shadow(k - 1);
     if (k == drawing_.shadows.size()) driver_.run("darken", prepared_.farthest);
@@ -49,14 +54,28 @@ class TileRun {
   /// The work on corners, of triangles that are not drawn as well, is spread evenly over those that are.
   void triangle(std::size_t k) {
     const std::uint64_t due = prepared_.vertex_flops * (k + 1) / drawing_.triangles.size();
-    host_.compute(flops(tiled_ ? kFlopsTileTriangle : due - done_ + kFlopsTriangle));
+    const TriangleSetup& triangle = drawing_.triangles[k];
+    host_.compute(flops(tiled_ ? tile_flops_of(triangle) : due - done_ + flops_of(triangle)));
     done_ = due;
-    dendro::raster_primitives::send(driver_, drawing_.triangles[k]);
+    dendro::raster_primitives::send(driver_, triangle);
+    if (!triangle.texel) plain();
+  }
+  /// Hides the texture where the primitive before is seen.
+  void plain() {
+    if (prepared_.layout.texture_bits > 0) driver_.run("plain");
+  }
+  std::size_t texels() const { return drawing_.texels ? prepared_.texture.rgb.size() : 0; }
+  void texel(std::size_t k) {
+    Work work;
+    work.instructions = kInstructionsTexel;
+    host_.compute(work);
+    send_texel(driver_, prepared_.texture, k);
   }
   void sphere(std::size_t k) {
     if (k == 0) spheres_.load_squares(prepared_.rules.width, prepared_.rules.height);
     host_.compute(flops(tiled_ ? kFlopsTileSphere : flops_of(drawing_.spheres[k])));
     spheres_.send(drawing_.spheres[k]);
+    plain();
   }
   void shadow(std::size_t k) {
     host_.compute(flops(tiled_ ? kFlopsTileShadow : kFlopsShadow));
@@ -76,8 +95,9 @@ class TileRun {
 void bin(HostPort& host, const Prepared& prepared) {
   host.phase("bin");
   Work work;
-  work.flops = prepared.vertex_flops + prepared.set_up.size() * (kFlopsTriangle - kFlopsTileTriangle) +
+  work.flops = prepared.vertex_flops +
                prepared.shadows.size() * (kFlopsShadow - std::min(kFlopsShadow, kFlopsTileShadow));
+  for (const TriangleSetup& triangle : prepared.set_up) work.flops += flops_of(triangle) - tile_flops_of(triangle);
   for (const SphereSetup& sphere : prepared.sphere_set_up) work.flops += flops_of(sphere);
   std::size_t entries = 0;
   for (const TileDrawing& drawing : prepared.tiles)
@@ -94,6 +114,8 @@ std::map<std::string, unsigned> register_values(const Layout& layout) {
   std::map<std::string, unsigned> values = {
       {"depth_bits", layout.depth_bits}, {"depth", layout.depth}, {"flag", layout.flag}, {"colour", layout.colour}};
   if (layout.shadows) values["shadow"] = layout.seen;
+  if (layout.texture_bits > 0)
+    values.insert({{"texel", layout.texel}, {"texel_v", layout.texel_v()}, {"texture_bits", layout.texture_bits}});
   if (!layout.has_spheres()) return values;
   values.insert({{"square", layout.square},
                  {"square_bits", layout.square_bits},

@@ -24,8 +24,18 @@ struct Layout {
 
   bool shadows = false;  ///< the bit `seen` says which pixels are in shadow when all is drawn
 
+  unsigned texture_bits = 0;  ///< of u and of v; 0: no texture
+  unsigned texel = 0;         ///< a bit that says whether the pixel shows a texture, u, v; set by place_texture()
+
+  /// Behind all other fields, which must be known.
+  void place_texture(unsigned bits) {
+    texel = used();
+    texture_bits = bits;
+  }
+  unsigned texel_v() const { return texel + 1 + texture_bits; }
+
   bool has_spheres() const { return square_bits > 0; }
-  unsigned used() const { return has_spheres() ? square + square_bits : shadows ? seen + 1 : colour + 24; }
+  unsigned used() const { return texture_bits > 0 ? texel_v() + texture_bits : has_spheres() ? square + square_bits : shadows ? seen + 1 : colour + 24; }
 };
 
 }  // namespace dendro::raster_primitives

@@ -88,6 +88,10 @@ class Preparation {
     digits_ = static_cast<int>(options_.integer("sphere_digits", 2, 1, 6));
     read_spheres();
     shadows_ = options_.choice("shadows", "none", {"none", "facing", "all"});
+    const std::string kind = options_.choice("texture", "checker", {"checker", "wood"});
+    const auto seed = static_cast<std::uint64_t>(options_.integer("texture_seed", 1, 0, INT32_MAX));
+    p_.mappings = read_mappings(options_, scene.objects.size());
+    if (read_texture_bits(options_) > 0) p_.texture = make_texture(kind, p_.layout.texture_bits, seed);
     options_.finish();
     if (scene.objects.empty() && balls_.empty())
       throw UserError(scene_.file, 0, "object", "the scene has no object and no sphere");
@@ -106,7 +110,7 @@ class Preparation {
     for (const ScreenSphere& sphere : p_.spheres)
       p_.sphere_set_up.push_back(dendro::raster_primitives::set_up(sphere, digits_, p_.rules));
     for (const ScreenTriangle& triangle : p_.triangles) {
-      const auto made = dendro::raster_primitives::set_up(triangle.corners, p_.rules);
+      const auto made = set_up(triangle, triangle.corners);
       p_.without_area += !made;
       if (!made) continue;
       p_.flat += made->flat;
@@ -117,6 +121,12 @@ class Preparation {
   }
 
  private:
+  std::optional<TriangleSetup> set_up(const ScreenTriangle& triangle, const std::array<ScreenVertex, 3>& corners) const {
+    auto made = dendro::raster_primitives::set_up(corners, p_.rules);
+    if (made && p_.is_textured(triangle)) made->texel = set_up_texture(corners, p_.rules);
+    return made;
+  }
+
   void add_tiles() {
     for (const lib::Tile& tile : lib::tiles_of(p_.width, p_.height, site_)) {
       TileDrawing drawing;
@@ -126,6 +136,7 @@ class Preparation {
       } else {
         drawing.triangles = p_.set_up, drawing.spheres = p_.sphere_set_up, drawing.shadows = p_.shadows;
       }
+      for (const TriangleSetup& triangle : drawing.triangles) drawing.texels = drawing.texels || triangle.texel;
       p_.tiles.push_back(std::move(drawing));
     }
   }
@@ -145,7 +156,7 @@ class Preparation {
       check_reach(triangle, std::max({tile.x0 - left, tile.y0 - top, right - tile.x0, bottom - tile.y0}));
       std::array<ScreenVertex, 3> corners = triangle.corners;
       for (ScreenVertex& corner : corners) corner.x -= tile.x0, corner.y -= tile.y0;
-      if (const auto made = dendro::raster_primitives::set_up(corners, p_.rules)) drawing.triangles.push_back(*made);
+      if (const auto made = set_up(triangle, corners)) drawing.triangles.push_back(*made);
     }
     for (ScreenSphere sphere : p_.spheres) {
       if (!meets(tile, sphere.x - sphere.radius, sphere.y - sphere.radius, sphere.x + sphere.radius, sphere.y + sphere.radius))
@@ -237,6 +248,7 @@ class Preparation {
       const glm::dvec3 s = view(shape.corners[k]);
       vertices.push_back({s.x, s.y, p_.depth_scale * s.z + p_.depth_shift, shader_(shape.normals[k], colour)});
     }
+    if (const auto at = p_.mappings.find(number); at != p_.mappings.end()) map(shape, at->second, vertices);
     p_.vertex_flops += shape.corners.size() * (kFlopsTransformVertex + kFlopsRotateNormal + kFlopsShadeVertex);
     p_.vertex_flops += shape.triangles.size() * kFlopsFacing;
     p_.given += shape.triangles.size();
@@ -246,6 +258,16 @@ class Preparation {
       const glm::dvec3 normal = glm::cross(shape.corners[t[1]] - shape.corners[t[0]], shape.corners[t[2]] - shape.corners[t[0]]);
       if (shadows_ == "all" || glm::dot(normal, shader_.to_light()) > 0) cast({&vertices[t[0]], &vertices[t[1]], &vertices[t[2]]});
     }
+  }
+
+  void map(const Shape& shape, const Mapping& mapping, std::vector<ScreenVertex>& vertices) {
+    for (std::size_t k = 0; k < vertices.size(); ++k) {
+      const glm::dvec2 at = mapping(shape.corners[k]) * static_cast<double>(p_.texture.side());
+      if (!(std::abs(at.x) <= kFarthestTexel && std::abs(at.y) <= kFarthestTexel))
+        options_.fail("textured", fmt::format("a corner lies farther than {:g} texels from the origin", kFarthestTexel));
+      vertices[k].u = at.x, vertices[k].v = at.y;
+    }
+    p_.vertex_flops += vertices.size() * kFlopsMapVertex;
   }
 
   void cast(const std::array<const ScreenVertex*, 3>& corners) {
@@ -330,8 +352,9 @@ Layout choose_layout(const scene::Scene& scene, const ArraySite& site) {
   Layout layout(static_cast<unsigned>(options.integer("depth_bits", 16, 12, 24)));
   if (!options.vectors("spheres", 7).empty()) layout.square_bits = square_bits_for(largest_side(scene, site), 1);
   layout.shadows = options.choice("shadows", "none", {"none", "facing", "all"}) != "none";
+  if (const unsigned bits = read_texture_bits(options); bits > 0) layout.place_texture(bits);
   if (layout.used() > static_cast<unsigned>(site.memory_bits))
-    options.fail("depth_bits", fmt::format("the picture takes {} bits of a pixel; its memory has {}", layout.used(),
+    options.fail(layout.texture_bits > 0 ? "texture_size" : "depth_bits", fmt::format("the picture takes {} bits of a pixel; its memory has {}", layout.used(),
                                            site.memory_bits));
   return layout;
 }

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstdint>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -10,6 +11,7 @@
 #include "firmware/raster_primitives/host/layout.h"
 #include "firmware/raster_primitives/host/shadow_setup.h"
 #include "firmware/raster_primitives/host/sphere_setup.h"
+#include "firmware/raster_primitives/host/texture.h"
 #include "firmware/raster_primitives/host/triangle_setup.h"
 #include "sim/scene/scene.h"
 
@@ -29,6 +31,7 @@ struct TileDrawing {
   std::vector<TriangleSetup> triangles;
   std::vector<SphereSetup> spheres;
   std::vector<ShadowSetup> shadows;
+  bool texels = false;  ///< something in it has a texture
 };
 
 /// A scene ready to be drawn.
@@ -39,6 +42,8 @@ struct Prepared {
   std::array<double, 3> background{};  ///< 0..255
   double depth_scale = 1, depth_shift = 0;  ///< units = scale · metres along the view + shift
   std::uint32_t farthest = 0;               ///< depth of the background
+  Texture texture;
+  std::map<std::size_t, Mapping> mappings;  ///< objects with the texture
   std::vector<ScreenTriangle> triangles;    ///< those that can cover a pixel
   std::vector<TriangleSetup> set_up;        ///< of those with area on the grid, in their order
   std::vector<ScreenSphere> spheres;        ///< those that can cover a pixel
@@ -52,6 +57,8 @@ struct Prepared {
   std::size_t spheres_given = 0;
   std::size_t facing_away = 0, outside = 0, without_area = 0, flat = 0;
   std::vector<std::string> files;
+
+  bool is_textured(const ScreenTriangle& triangle) const { return mappings.count(triangle.object) != 0; }
 };
 
 // Floating-point operations, counted from the formulas of prepare().
@@ -60,8 +67,18 @@ constexpr std::uint64_t kFlopsRotateNormal = 15;
 constexpr std::uint64_t kFlopsShadeVertex = 5 + 4 + 3;      // n·L, to a shade, to three colours
 constexpr std::uint64_t kFlopsFacing = 5;                   // sign of the area on the screen
 
+constexpr std::uint64_t kFlopsMapVertex = 3 + 2 * 5;        // from the origin, two products; their lengths are divided out once
+
+// Instructions of a texel: load its colour, put its coordinates above it, count, test.
+constexpr std::uint64_t kInstructionsTexel = 5;
+
 // Of them, and of those of the set-ups, what comes anew in every tile: constants at its corner, guards.
 constexpr std::uint64_t kFlopsTileTriangle = 7 * 4 + kFlopsGuards;
+constexpr std::uint64_t kFlopsTileTextured = kFlopsTileTriangle - 4;
+
+constexpr std::uint64_t tile_flops_of(const TriangleSetup& triangle) {
+  return triangle.texel ? kFlopsTileTextured : kFlopsTileTriangle;
+}
 constexpr std::uint64_t kFlopsTileSphere = 2 + 2 + 5 + 3 * 4;
 constexpr std::uint64_t kFlopsTileShadow = 4 * (4 + 10);
 

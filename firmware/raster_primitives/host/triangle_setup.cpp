@@ -103,6 +103,24 @@ std::optional<TriangleSetup> set_up(const std::array<ScreenVertex, 3>& corners, 
   return out;
 }
 
+double texel_rounding(double a, double b, double u, const TriangleRules& rules) {
+  const double most = std::abs(u) + 2 * (std::abs(a) * rules.width + std::abs(b) * rules.height);
+  return std::ldexp(1.0 + rules.width + rules.height, -static_cast<int>(rules.fraction + kTexelFraction) - 1) + std::ldexp(most, -22);
+}
+
+std::array<Stream, 2> set_up_texture(const std::array<ScreenVertex, 3>& corners, const TriangleRules& rules) {
+  const auto& [p, q, r] = corners;
+  const double area = (q.x - p.x) * (r.y - p.y) - (r.x - p.x) * (q.y - p.y);
+  const std::array<double, 3> x = {p.x, q.x, r.x}, y = {p.y, q.y, r.y}, u = {p.u, q.u, r.u}, v = {p.v, q.v, r.v};
+  std::array<Stream, 2> out;
+  for (std::size_t k = 0; k < 2; ++k) {
+    const std::array<double, 3>& value = k == 0 ? u : v;
+    const Plane through = area == 0 ? Plane{} : plane(x, y, value, 1 / area, rules);
+    out[k] = send_as(through, area == 0 || through.flat, (value[0] + value[1] + value[2]) / 3, 0, rules.fraction + kTexelFraction);
+  }
+  return out;
+}
+
 void send(lib::IgcDriver& driver, const char* program, const Stream& stream) {
   driver.run(program, stream.at, stream.fraction, stream.guard);
 }
@@ -112,6 +130,11 @@ void send(lib::IgcDriver& driver, const TriangleSetup& triangle) {
   send(driver, "edge", triangle.edge[1]);
   send(driver, "edge", triangle.edge[2]);
   send(driver, "depth_test", triangle.depth);
+  if (triangle.texel) {
+    send(driver, "texture_u", (*triangle.texel)[0]);
+    send(driver, "texture_v", (*triangle.texel)[1]);
+    return;
+  }
   send(driver, "red", triangle.colour[0]);
   send(driver, "green", triangle.colour[1]);
   send(driver, "blue", triangle.colour[2]);

@@ -14,6 +14,7 @@ class Renderer {
     const std::size_t pixels = static_cast<std::size_t>(prepared.width) * static_cast<std::size_t>(prepared.height);
     out_.depth.assign(pixels, prepared.farthest);
     out_.seen.assign(pixels, -1);
+    out_.texel.resize(pixels), out_.textured.assign(pixels, false);
     for (std::size_t i = 0; i < pixels; ++i)
       out_.rgb.insert(out_.rgb.end(), prepared.background.begin(), prepared.background.end());
   }
@@ -35,7 +36,11 @@ class Renderer {
         const std::array<double, 3> rgb = {w * a.colour[0] + u * b.colour[0] + v * c.colour[0],
                                            w * a.colour[1] + u * b.colour[1] + v * c.colour[1],
                                            w * a.colour[2] + u * b.colour[2] + v * c.colour[2]};
-        see(x, y, w * a.depth + u * b.depth + v * c.depth, rgb, number);
+        const double depth = w * a.depth + u * b.depth + v * c.depth;
+        if (prepared_.is_textured(triangle))
+          see_texel(x, y, depth, {w * a.u + u * b.u + v * c.u, w * a.v + u * b.v + v * c.v}, number);
+        else
+          see(x, y, depth, rgb, number);
       }
   }
 
@@ -74,11 +79,21 @@ class Renderer {
  private:
   std::size_t at(int x, int y) const { return static_cast<std::size_t>(y * prepared_.width + x); }
 
-  void see(int x, int y, double depth, const std::array<double, 3>& rgb, std::int32_t number) {
+  void see_texel(int x, int y, double depth, const glm::dvec2& texel, std::int32_t number) {
+    const std::uint32_t rgb = prepared_.texture.at(static_cast<std::int64_t>(std::floor(texel.x)),
+                                                   static_cast<std::int64_t>(std::floor(texel.y)));
+    const auto part = [&](unsigned c) { return static_cast<double>(rgb >> (8 * c) & 255); };
+    if (see(x, y, depth, {part(0), part(1), part(2)}, number)) out_.texel[at(x, y)] = texel, out_.textured[at(x, y)] = true;
+  }
+
+  /// Whether it is nearer than what is there.
+  bool see(int x, int y, double depth, const std::array<double, 3>& rgb, std::int32_t number) {
     const std::size_t pixel = at(x, y);
-    if (depth >= out_.depth[pixel]) return;
+    if (depth >= out_.depth[pixel]) return false;
+    out_.textured[pixel] = false;
     out_.depth[pixel] = depth, out_.seen[pixel] = number;
     std::copy(rgb.begin(), rgb.end(), out_.rgb.begin() + static_cast<std::ptrdiff_t>(3 * pixel));
+    return true;
   }
 
   const Prepared& prepared_;

@@ -12,7 +12,7 @@ constexpr unsigned kWordBits = 32;
 ClockedRenderer::ClockedRenderer(const Spec& spec)
     : spec_(spec),
       translator_(spec.setup_clocks),
-      controller_(spec.tree.gap_clocks, spec.latency() + spec.renderers.copy_clocks),
+      controller_(spec.tree.gap_clocks, spec.copy_words()),
       array_(spec) {}
 
 void ClockedRenderer::begin(std::int64_t n) {

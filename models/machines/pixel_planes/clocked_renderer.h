@@ -35,6 +35,7 @@ class ClockedRenderer {
   /// Is there room for a word in clock n, when `next` is the first clock that has not been worked out?
   bool room_at(std::int64_t n, std::int64_t next) const;
   bool can_land_in(std::int64_t n) const { return last_landed_ < n; }
+  std::size_t fifo_words() const { return fifo_.size(); }
   bool has_room() const { return fifo_.size() < static_cast<std::size_t>(spec_.fifo_words); }
   void store(std::int64_t clock, std::uint32_t index, std::uint32_t value) { writes_.push_back({clock, index, value}); }
   std::uint32_t load(std::uint32_t index) const;
@@ -52,6 +53,7 @@ class ClockedRenderer {
   bool was_idle() const { return idle_before_; }
   const ClockedTranslator& translator() const { return translator_; }
   const ClockedController& controller() const { return controller_; }
+  ClockedController& controller() { return controller_; }  ///< to be given a state before the first clock
   ClockedArraySide& array() { return array_; }
 
  private:

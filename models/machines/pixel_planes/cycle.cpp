@@ -181,7 +181,13 @@ std::vector<Phase> CycleMachine::phases() const {
 
 std::vector<std::string> CycleMachine::elaborated() const { return unit_names(boards_.size()); }
 
+Picture CycleMachine::picture() const {
+  if (!shown_) shown_ = group_.picture();
+  return *shown_;
+}
+
 std::vector<UnitStats> CycleMachine::units() const {
+  picture();  // so that what it needs is among the evaluated operations, whoever asks first
   const auto total = static_cast<std::uint64_t>(end_);
   const std::vector<std::string> names = unit_names(boards_.size());
   std::vector<UnitStats> units;

@@ -2,6 +2,7 @@
 
 #include <deque>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -28,7 +29,7 @@ class CycleMachine : public Machine, private HostPort {
   std::vector<MarkEvent> marks() const override { return {}; }
   std::vector<std::string> elaborated() const override;
   bool time_dependent() const override { return time_read_; }
-  Picture picture() const override { return group_.picture(); }
+  Picture picture() const override;
   std::uint32_t peek(std::uint32_t address, unsigned function) const override { return group_.peek(address, function); }
 
  private:
@@ -63,6 +64,7 @@ class CycleMachine : public Machine, private HostPort {
   MachineOptions options_;
   mutable std::deque<CycleBoard> boards_;  // one a renderer; reading brings waiting tiles up to date
   RendererGroup group_;
+  mutable std::optional<Picture> shown_;  ///< made once: it takes as long as a run of the lazy array
   std::unique_ptr<Recorder> recorder_;
   std::int64_t now_ps_ = 0, busy_ps_ = 0;
   std::vector<Stretch> host_;

@@ -1,8 +1,7 @@
 #include <algorithm>
-#include <deque>
+#include <utility>
 
-#include "models/machines/pixel_planes/clocked_array_side.h"
-#include "models/machines/pixel_planes/clocked_front.h"
+#include "models/machines/pixel_planes/clocked_renderer.h"
 #include "models/machines/pixel_planes/cycle_board.h"
 #include "models/machines/pixel_planes/replay_commands.h"
 #include "models/machines/pixel_planes/replay_planes.h"
@@ -47,26 +46,24 @@ class CycleUnit : public CommandUnit {
 
 class ClockedUnit : public CommandUnit {
  public:
-  explicit ClockedUnit(const Spec& spec)
-      : spec_(spec), translator_(spec.setup_clocks), controller_(spec.tree.gap_clocks, spec.copy_words()), array_(spec), thieves_(spec) {}
+  explicit ClockedUnit(const Spec& spec) : renderer_(spec), thieves_(spec) {}
 
   void begin(std::int64_t clock, const igc::ControllerState& controller, const std::vector<Plane>& memory) override {
     now_ = clock;
     thieves_.resume(clock);
     for (std::uint32_t n = 0; n < igc::kStoreWords; ++n) {
-      controller_.set_half(2 * n, static_cast<std::uint32_t>(controller.store[n]));
-      controller_.set_half(2 * n + 1, static_cast<std::uint32_t>(controller.store[n] >> 32));
+      renderer_.controller().set_half(2 * n, static_cast<std::uint32_t>(controller.store[n]));
+      renderer_.controller().set_half(2 * n + 1, static_cast<std::uint32_t>(controller.store[n] >> 32));
     }
-    for (unsigned n = 0; n < igc::kRegisters; ++n) controller_.set_register(n, controller.registers[n]);
+    for (unsigned n = 0; n < igc::kRegisters; ++n) renderer_.controller().set_register(n, controller.registers[n]);
     for (unsigned bit = 0; bit < memory.size(); ++bit)
-      array_.planes().set_plane(igc::PixelPlane::kMemory, bit, memory[bit]);
+      renderer_.array().planes().set_plane(igc::PixelPlane::kMemory, bit, memory[bit]);
   }
   std::int64_t offer(std::int64_t clock, std::uint32_t word) override {
     go_to(clock);
-    while (landed_ == now_ || fifo_.size() >= static_cast<std::size_t>(spec_.fifo_words)) evaluate();
-    before_ = fifo_.size();
-    fifo_.land(word, now_);
-    landed_ = now_;
+    while (!renderer_.can_land_in(now_) || !renderer_.has_room()) evaluate();
+    before_ = renderer_.fifo_words();
+    renderer_.land(word, now_);
     partial_.push_back(word);
     if (partial_.size() == igc::unpack_header(partial_.front()).words()) partial_.clear();
     return now_;
@@ -74,33 +71,25 @@ class ClockedUnit : public CommandUnit {
   std::size_t words_before() const override { return before_; }
   void store(std::int64_t clock, std::uint32_t address, std::uint32_t value) override {
     go_to(clock);
-    writes_.push_back({now_, address, value});
+    renderer_.store(now_, address, value);
   }
   bool busy(std::int64_t clock) override {
     go_to(clock);
-    return !idle();
+    return !renderer_.idle_now();
   }
   bool lacks_words() const override { return !partial_.empty(); }
   std::int64_t idle_from(std::int64_t clock) override {
     go_to(clock);
-    while (!idle()) evaluate();
+    while (!renderer_.idle_now()) evaluate();
     return now_;
   }
   void finish(std::size_t commands) override {
     while (done_.size() < commands) evaluate();
   }
   const std::vector<CommandTimes>& done() const override { return done_; }
-  Plane plane(unsigned bit) override { return array_.planes().plane(igc::PixelPlane::kMemory, bit); }
+  Plane plane(unsigned bit) override { return renderer_.array().planes().plane(igc::PixelPlane::kMemory, bit); }
 
  private:
-  struct Write {
-    std::int64_t clock = 0;
-    std::uint32_t index = 0, value = 0;
-  };
-
-  bool idle() const {
-    return fifo_.empty() && translator_.idle() && !controller_.running() && array_.words_on_their_way() == 0;
-  }
   void go_to(std::int64_t clock) {
     while (now_ < clock) {
       if (quiet_ > kSettledClocks) {
@@ -113,49 +102,21 @@ class ClockedUnit : public CommandUnit {
     }
   }
   void evaluate() {
-    for (; !writes_.empty() && writes_.front().clock < now_; writes_.pop_front())
-      controller_.set_half(writes_.front().index, writes_.front().value);
-    const bool stolen = thieves_.steal(now_) != ClockedCause::kBusy;
-    quiet_ = idle() && writes_.empty() ? quiet_ + 1 : 0;
-    const bool ready = translator_.ready();
-    translator_.clock(now_, fifo_);
-    if (!stolen) send(ready);
+    const std::uint64_t taken_before = renderer_.fifo_counters.commands;
+    renderer_.begin(now_);
+    quiet_ = renderer_.idle_now() ? quiet_ + 1 : 0;
+    renderer_.clock(now_, thieves_.steal(now_));
+    if (!renderer_.error().empty()) throw UserError(renderer_.error());
+    if (renderer_.fifo_counters.commands > taken_before) taken_ = now_;
+    if (renderer_.at_work() != nullptr && !std::as_const(renderer_).controller().running()) done_.push_back({taken_, now_ + 1});
     ++now_;
   }
-  void send(bool ready) {
-    if (!controller_.running() && ready) take();
-    if (!controller_.running()) {
-      controller_.pause();
-      array_.clock(nullptr);
-      return;
-    }
-    const ClockedController::Sent sent = controller_.send();
-    const igc::Command& command = controller_.command();
-    if (sent.starts_stream) array_.start(command.a, command.b, command.c);
-    array_.clock(&sent.word);
-    if (!controller_.running()) done_.push_back({taken_, now_ + 1});
-  }
-  void take() {
-    const igc::Header header = translator_.command().header;
-    const auto refuse = [&](const char* what) {
-      throw UserError("the micro-program at word " + std::to_string(header.entry) + what);
-    };
-    if (!header.register_write && !header.copy && !controller_.has_end(header.entry)) refuse(" of the control store has no end");
-    if (!controller_.take(translator_.command())) refuse(" sends nothing");
-    translator_.taken();
-    taken_ = now_;
-  }
 
-  Spec spec_;
-  ClockedFifo fifo_;
-  ClockedTranslator translator_;
-  ClockedController controller_;
-  ClockedArraySide array_;
+  ClockedRenderer renderer_;
   ClockedThieves thieves_;
-  std::deque<Write> writes_;
   std::vector<std::uint32_t> partial_;  ///< words of a command that is not whole
   std::vector<CommandTimes> done_;
-  std::int64_t now_ = 0, landed_ = -1, taken_ = 0, quiet_ = 0;
+  std::int64_t now_ = 0, taken_ = 0, quiet_ = 0;
   std::size_t before_ = 0;
 };
 

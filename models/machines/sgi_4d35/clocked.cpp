@@ -69,13 +69,8 @@ ProgramResult run_clocked(const Spec& spec, const ProgramImage& image, service_b
   engine.close();
   const r3000::State& state = pipeline.state();
   if (options.final_state != nullptr) *options.final_state = state;
-  ProgramResult result;
-  result.stopped = board.stopped();
-  result.pc = state.pc;
-  result.return_address = state.r[31];
-  result.instructions = state.instructions;
+  ProgramResult result = result_of(state, board, spec);
   result.cycles = static_cast<std::int64_t>(pipeline.clock());
-  result.clock_hz = spec.clock_hz;
   result.units = units_of(pipeline.counters(), counters_of(state));
   return result;
 }

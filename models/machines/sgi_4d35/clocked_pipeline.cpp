@@ -178,14 +178,8 @@ void ClockedPipeline::finish() {
 
 Counters ClockedPipeline::counters() const {
   Counters c = counters_;
-  const r3000_bus::ClockedBus::Counters& bus = bus_.counters();
   c.cycles = clock_;
-  c.memory_busy = bus.busy;
-  c.reads = bus.reads;
-  c.read_words = bus.read_words;
-  c.writes = bus.writes;
-  c.page_writes = bus.page_writes;
-  c.overtaken = bus.overtaken;
+  c.memory = bus_.counters();
   return c;
 }
 

@@ -189,13 +189,7 @@ Counters Pipeline::counters(std::uint64_t words, std::uint64_t last) const {
   c.instruction_misses = instruction_misses_;
   c.data_accesses = data_accesses_;
   c.data_misses = data_misses_;
-  const r3000_bus::Counters bus = bus_.counters(last);
-  c.memory_busy = bus.busy;
-  c.reads = bus.reads;
-  c.read_words = bus.read_words;
-  c.writes = bus.writes;
-  c.page_writes = bus.page_writes;
-  c.overtaken = bus.overtaken;
+  c.memory = bus_.counters(last);
   return c;
 }
 

@@ -95,13 +95,13 @@ std::vector<UnitStats> units_of(const Counters& c, const r3000::Counters& events
           cache("sgi_4d35.data_cache", c.data_accesses, c.data_misses),
           {"sgi_4d35.memory",
            {{"cycles", c.cycles},
-            {"busy", c.memory_busy},
-            {"idle", c.cycles - c.memory_busy},
-            {"reads", c.reads},
-            {"read_words", c.read_words},
-            {"writes", c.writes},
-            {"page_writes", c.page_writes},
-            {"overtaken", c.overtaken}}}};
+            {"busy", c.memory.busy},
+            {"idle", c.cycles - c.memory.busy},
+            {"reads", c.memory.reads},
+            {"read_words", c.memory.read_words},
+            {"writes", c.memory.writes},
+            {"page_writes", c.memory.page_writes},
+            {"overtaken", c.memory.overtaken}}}};
 }
 
 MachineType sgi_4d35_type() {

@@ -5,6 +5,7 @@
 #include "models/machines/machine.h"
 #include "models/parts/r3000/r3000_state.h"
 #include "models/parts/r3000/r3000_timing.h"
+#include "models/parts/r3000_bus/r3000_bus_counters.h"
 #include "models/parts/r3000_bus/r3000_bus_spec.h"
 #include "models/parts/r3000_cache/r3000_cache_spec.h"
 #include "models/parts/r3010/r3010_timing.h"
@@ -28,7 +29,7 @@ struct Counters {
   std::uint64_t stall_exception = 0, stall_fp = 0, stall_multiply_divide = 0, stall_instruction_miss = 0,
                 stall_data_miss = 0, stall_uncached = 0, stall_partial_store = 0, stall_write_buffer = 0;
   std::uint64_t instruction_accesses = 0, instruction_misses = 0, data_accesses = 0, data_misses = 0;
-  std::uint64_t memory_busy = 0, reads = 0, read_words = 0, writes = 0, page_writes = 0, overtaken = 0;
+  r3000_bus::Counters memory;
 };
 
 /// The counters as the units of stats.json: processor, instruction_cache, data_cache, memory.

@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <deque>
 
+#include "models/parts/r3000_bus/r3000_bus_counters.h"
 #include "models/parts/r3000_bus/r3000_bus_spec.h"
 
 namespace dendro::r3000_bus {
@@ -20,10 +21,6 @@ struct Read {
 /// Rules: README.md.
 class ClockedBus {
  public:
-  struct Counters {
-    std::uint64_t busy = 0, reads = 0, read_words = 0, writes = 0, page_writes = 0, overtaken = 0;
-  };
-
   explicit ClockedBus(const Spec& spec) : spec_(spec) {}
 
   /// The state of memory moves on into this clock.

@@ -3,13 +3,10 @@
 #include <cstdint>
 #include <vector>
 
+#include "models/parts/r3000_bus/r3000_bus_counters.h"
 #include "models/parts/r3000_bus/r3000_bus_spec.h"
 
 namespace dendro::r3000_bus {
-
-struct Counters {
-  std::uint64_t busy = 0, reads = 0, read_words = 0, writes = 0, page_writes = 0, overtaken = 0;
-};
 
 /// Write buffer and memory in closed form, in absolute clocks: every entry knows when its write begins and
 /// ends as if no read came any more; a read that overtakes moves the entries behind it. Calls come in the

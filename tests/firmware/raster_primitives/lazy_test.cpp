@@ -11,7 +11,7 @@ namespace {
 /// A program on two arrays: one looks at all pixels, one where a flag can be set.
 struct Both {
   explicit Both(const Layout& layout)
-      : programs(assemble({"triangles.igc", "spheres.igc", "shadows.igc"}, layout)),
+      : programs(assemble({"triangles.igc", "spheres.igc", "shadows.igc", "textures.igc"}, layout)),
         full_port(small_spec(kWide)), lazy_port(small_spec(kWide), true), full(full_port, programs), lazy(lazy_port, programs) {
     for (lib::IgcDriver* driver : {&full, &lazy}) {
       driver->load();
@@ -34,6 +34,7 @@ Layout layout_of_all() {
   Layout layout(12);
   layout.square_bits = 20;
   layout.shadows = true;
+  layout.place_texture(3);
   return layout;
 }
 
@@ -66,9 +67,12 @@ TEST(FlagRegions, LazyEqualsFullInEveryBitWhateverTheOrderOfCommands) {
     std::mt19937_64 random(seed);
     Both arrays(layout);
     for (int n = 0; n < 400; ++n) {
-      const auto triangle = set_up(corners_of(random, rules), rules);
+      std::array<ScreenVertex, 3> corners = corners_of(random, rules);
+      for (ScreenVertex& v : corners) v.u = v.x / 3, v.v = v.y / 5 - v.x;
+      auto triangle = set_up(corners, rules);
+      if (triangle && n % 2 == 0) triangle->texel = set_up_texture(corners, rules);
       const Stream edge = random_edge(random), other = random_edge(random);
-      const std::uint64_t choice = random() % 12;
+      const std::uint64_t choice = random() % 15, number = static_cast<std::uint64_t>(n), texel = random() % 64;
       arrays.both([&](lib::IgcDriver& driver) {
         if (choice < 5 && triangle) send(driver, *triangle);
         if (choice == 5) send(driver, "edge_first", edge);
@@ -77,6 +81,8 @@ TEST(FlagRegions, LazyEqualsFullInEveryBitWhateverTheOrderOfCommands) {
         if (choice == 8) driver.run("keep_seen");
         if (choice == 9) driver.run("add_shadow");
         if (choice == 10) send(driver, "behind", edge);
+        if (choice == 12) driver.run("plain");
+        if (choice >= 13) driver.run("send_texel", texel / 8 << 32 | texel % 8 << 24 | number);
         if (choice == 11 && n % 40 == 0) driver.run("clear_picture", std::uint64_t{0xABC} << 24 | 0x123456);
       });
       const auto at = static_cast<std::uint32_t>(random() % (Both::kWide * Both::kWide));

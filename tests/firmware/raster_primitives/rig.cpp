@@ -21,6 +21,7 @@ IntegerPixels::IntegerPixels(const Layout& l, std::uint32_t farthest, int s) : l
   const auto pixels = static_cast<std::size_t>(side * side);
   depth.assign(pixels, farthest);
   colour.assign(pixels, {});
+  texel.resize(pixels);
   flag.assign(pixels, false);
   shadow = flag;
 }
@@ -36,6 +37,11 @@ void IntegerPixels::triangle(const TriangleSetup& triangle) {
       flag[at] = flag[at] && z < depth[at];
       if (!flag[at]) continue;
       depth[at] = z;
+      texel[at].reset();
+      if (triangle.texel) {
+        texel[at] = {value_at((*triangle.texel)[0], x, y), value_at((*triangle.texel)[1], x, y)};
+        continue;
+      }
       for (std::size_t c = 0; c < 3; ++c) colour[at][c] = static_cast<std::uint8_t>(value_at(triangle.colour[c], x, y));
     }
 }
@@ -84,6 +90,14 @@ void IntegerPixels::cast(const ShadowSetup& caster) {
       for (const ShadowPlane& plane : caster.planes) flag[at] = flag[at] && is_on_side(plane, x, y, depth[at]);
       shadow[at] = shadow[at] || flag[at];
     }
+}
+
+void IntegerPixels::texels(const Texture& texture) {
+  for (std::size_t at = 0; at < texel.size(); ++at) {
+    if (!texel[at]) continue;
+    const std::uint32_t rgb = texture.at((*texel[at])[0], (*texel[at])[1]);
+    for (unsigned c = 0; c < 3; ++c) colour[at][c] = static_cast<std::uint8_t>(rgb >> (8 * c));
+  }
 }
 
 void IntegerPixels::darken(std::uint32_t farthest) {

@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -36,12 +37,14 @@ struct IntegerPixels {
   void sphere(const SphereSetup& sphere);
   /// Of one triangle, into `shadow`.
   void cast(const ShadowSetup& caster);
+  void texels(const Texture& texture);
   void darken(std::uint32_t farthest);
 
   Layout layout;
   int side;
   std::vector<std::uint32_t> depth;
   std::vector<std::array<std::uint8_t, 3>> colour;
+  std::vector<std::optional<std::array<std::int64_t, 2>>> texel;  ///< u, v of pixels that show a texture
   std::vector<bool> flag, shadow;
 };
 
