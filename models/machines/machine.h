@@ -86,7 +86,7 @@ struct MachineOptions {
   std::size_t activity = 0;                       ///< most samples of activity(), an even number; 0: none are taken
   std::map<std::uint32_t, std::string> counted;   ///< `function` only: microwords whose executions are counted
   std::function<void(std::int64_t tick)> progress;  ///< called now and then with the simulated time; may be empty
-  Debugger* debugger = nullptr;  ///< `function` and `cycle` of a machine with `exec`
+  Debugger* debugger = nullptr;  ///< all levels but `clocked` of a machine with `exec`
   std::map<std::uint32_t, WordClocks>* word_clocks = nullptr;  ///< `cycle` of a machine with `exec`: by address
   trace::Writer* recorder = nullptr;  ///< `cycle` only: gathers the records of one boundary
 
