@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <fstream>
 #include <iterator>
 #include <optional>
@@ -21,6 +22,8 @@ constexpr std::size_t kMostPictureBytes = 16 << 20;
 constexpr const char *kJob = "job", *kTree = "tree", *kViews = "views", *kPictures = "pictures";
 
 Bytes read_file(const std::string& path) {
+  std::error_code error;
+  if (std::filesystem::is_directory(path, error)) throw UserError(path, 0, "", "cannot be read: it is a folder");
   std::ifstream file(path, std::ios::binary);
   Bytes bytes{std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
   if (!file.good() && !file.eof()) throw UserError(path, 0, "", "cannot be read");
