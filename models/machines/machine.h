@@ -151,7 +151,8 @@ struct ProgramMark {
 
 struct ProgramResult {
   bool stopped = false;  ///< by a service; otherwise the limit was reached
-  std::uint32_t pc = 0, return_address = 0;
+  std::uint32_t pc = 0, return_address = 0, stack_pointer = 0;
+  std::vector<std::uint8_t> stack;  ///< from the stack pointer on, at most so much as shows the callers
   std::uint64_t instructions = 0;
   std::int64_t cycles = 0;  ///< 0 at `function`
   double clock_hz = 0;

@@ -17,7 +17,7 @@ namespace dendro::study {
 namespace {
 
 constexpr char kControlC = 3;
-constexpr int kPatienceMs = 1000;
+constexpr int kPatienceMs = 1000, kLookMs = 100;
 
 [[noreturn]] void refuse(int port, int error) {
   throw UserError("--gdb", 0, "", fmt::format("port {} of 127.0.0.1: {}", port, std::strerror(error)));
@@ -25,7 +25,8 @@ constexpr int kPatienceMs = 1000;
 
 }  // namespace
 
-GdbSocket::GdbSocket(int port, std::function<std::optional<int>()> exit_code) : exit_code_(std::move(exit_code)) {
+GdbSocket::GdbSocket(int port, std::function<std::optional<int>()> exit_code, std::function<void()> look)
+    : exit_code_(std::move(exit_code)), look_(std::move(look)) {
   listener_ = socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0);
   if (listener_ < 0) refuse(port, errno);
   const int yes = 1;
@@ -49,7 +50,18 @@ GdbSocket::~GdbSocket() {
   if (listener_ >= 0) close(listener_);
 }
 
+/// Until there is something to read, or an error that reading will tell.
+void GdbSocket::wait_for(int socket) const {
+  pollfd event = {socket, POLLIN, 0};
+  int ready = 0;
+  do {
+    if (look_) look_();
+    ready = poll(&event, 1, kLookMs);
+  } while (ready == 0 || (ready < 0 && errno == EINTR));
+}
+
 bool GdbSocket::read_more() {
+  wait_for(connection_);
   char bytes[4096];
   ssize_t got = 0;
   do got = recv(connection_, bytes, sizeof bytes, 0);
@@ -71,6 +83,7 @@ bool GdbSocket::send_all(const std::string& bytes) {
 
 /// While the program runs GDB sends nothing but acknowledgements and the interrupt.
 bool GdbSocket::interrupted() {
+  if (look_) look_();
   pollfd event = {connection_, POLLIN, 0};
   if (!lost_ && poll(&event, 1, 0) == 1) read_more();
   const auto at = received_.find(kControlC);
@@ -80,6 +93,7 @@ bool GdbSocket::interrupted() {
 }
 
 bool GdbSocket::debug(Debuggee& program) {
+  wait_for(listener_);
   do connection_ = accept4(listener_, nullptr, nullptr, SOCK_CLOEXEC);
   while (connection_ < 0 && errno == EINTR);
   if (connection_ < 0) refuse(port_, errno);

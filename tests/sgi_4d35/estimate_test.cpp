@@ -48,7 +48,7 @@ TEST(Sgi4d35Estimate, TheTrueCountLiesInTheIntervalAndNear) {
   for (std::uint64_t seed = 1; seed <= 10; ++seed) {
     Sampling sampling;
     sampling.seed = seed;
-    const ProgramResult estimate = run_estimate(small(), image, services, UINT64_MAX, nullptr, sampling);
+    const ProgramResult estimate = run_estimate(small(), image, services, UINT64_MAX, {}, sampling);
     EXPECT_EQ(exact.instructions, estimate.instructions);
     const auto truth = static_cast<double>(exact.cycles), guess = static_cast<double>(estimate.cycles);
     EXPECT_LT(std::abs(guess / truth - 1), 0.008) << "seed " << seed;

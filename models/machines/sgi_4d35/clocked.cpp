@@ -1,6 +1,7 @@
 #include "models/machines/sgi_4d35/clocked.h"
 
 #include <cmath>
+#include <exception>
 #include <memory>
 #include <systemc>
 
@@ -27,6 +28,11 @@ class ClockedEngine : public sc_core::sc_module {
     SC_METHOD(on_clock);
   }
 
+  /// What ended the run before the program did: SystemC would make another error of it.
+  void rethrow() const {
+    if (given_up_) std::rethrow_exception(given_up_);
+  }
+
   void close() {
     if (vcd_) vcd_->close();
     if (log_) log_->close();
@@ -34,6 +40,18 @@ class ClockedEngine : public sc_core::sc_module {
 
  private:
   void on_clock() {
+    try {
+      clock();
+    } catch (...) {
+      given_up_ = std::current_exception();
+    }
+    if (pipeline_.stopped() || given_up_)
+      sc_core::sc_stop();
+    else
+      next_trigger(period_);
+  }
+
+  void clock() {
     const std::uint64_t n = pipeline_.clock();
     pipeline_.look();
     if (vcd_ && vcd_->wants(n)) vcd_->during(n);
@@ -41,10 +59,6 @@ class ClockedEngine : public sc_core::sc_module {
     pipeline_.move();
     if (vcd_ && vcd_->wants(n)) vcd_->after();
     if (n % kProgressClocks == 0 && options_.progress) options_.progress(static_cast<std::int64_t>(n));
-    if (pipeline_.stopped())
-      sc_core::sc_stop();
-    else
-      next_trigger(period_);
   }
 
   ClockedPipeline& pipeline_;
@@ -52,6 +66,7 @@ class ClockedEngine : public sc_core::sc_module {
   sc_core::sc_time period_;
   std::unique_ptr<ClockedVcd> vcd_;
   std::unique_ptr<ClockedLog> log_;
+  std::exception_ptr given_up_;
 };
 
 }  // namespace
@@ -67,6 +82,7 @@ ProgramResult run_clocked(const Spec& spec, const ProgramImage& image, service_b
   ClockedEngine engine("sgi_4d35", pipeline, spec.clock_hz, options.machine);
   if (!pipeline.stopped()) sc_core::sc_start();
   engine.close();
+  engine.rethrow();
   const r3000::State& state = pipeline.state();
   if (options.final_state != nullptr) *options.final_state = state;
   ProgramResult result = result_of(state, board, spec);

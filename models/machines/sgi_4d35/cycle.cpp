@@ -1,5 +1,7 @@
 #include "models/machines/sgi_4d35/cycle.h"
 
+#include <algorithm>
+
 #include "models/machines/sgi_4d35/board.h"
 #include "models/machines/sgi_4d35/debug.h"
 #include "models/machines/sgi_4d35/marks.h"
@@ -49,7 +51,11 @@ ProgramResult run_cycle(const Spec& spec, const ProgramImage& image, service_blo
     return words;
   };
   std::uint64_t left = debugged(options.machine.debugger, core, run, port, limit);
-  while (left != 0 && !port.stopped()) left = run(left);
+  while (left != 0 && !port.stopped()) {
+    const std::uint64_t words = std::min(left, kProgressWords);
+    left -= words - run(words);
+    if (options.machine.progress) options.machine.progress(static_cast<std::int64_t>(core.time().bias));
+  }
   const r3000::State& state = core.state();
   ProgramResult result = result_of(state, port, spec);
   Counters counters;

@@ -48,14 +48,14 @@ UnitStats estimate_of(std::uint64_t exact, const Sums& sums, const Sampling& sam
 }  // namespace
 
 ProgramResult run_estimate(const Spec& spec, const ProgramImage& image, service_block::Services& services,
-                           std::uint64_t limit, Debugger* debugger, const Sampling& sampling) {
+                           std::uint64_t limit, const MachineOptions& options, const Sampling& sampling) {
   Board board(spec.main_bytes, image, services);
   r3000::Core<Board, Pipeline> core(spec.processor, board, spec);
   start(core.state(), image);
   std::mt19937_64 random(sampling.seed);
   Sums first, rest;
   const auto exactly = [&core](std::uint64_t words) { return core.run(words); };
-  std::uint64_t left = debugged(debugger, core, exactly, board, limit);
+  std::uint64_t left = debugged(options.debugger, core, exactly, board, limit);
   const std::uint64_t let_go = left;
   const auto run = [&](std::uint64_t words) {
     const std::uint64_t budget = std::min(left, words), unused = core.run(budget);
@@ -80,6 +80,7 @@ ProgramResult run_estimate(const Spec& spec, const ProgramImage& image, service_
     core.warm(true);
     run(sampling.period - before - sampling.lead_in - sampling.window);
     core.warm(false);
+    if (options.progress) options.progress(static_cast<std::int64_t>(core.time().bias));
   }
   ProgramResult result = result_of(core.state(), board, spec);
   if (limit != 0) core.settle();

@@ -16,6 +16,6 @@ struct Sampling {
 /// for the sampling alone, and the number of windows. The words under a debugger and the two periods behind them are
 /// exact.
 ProgramResult run_estimate(const Spec& spec, const ProgramImage& image, service_block::Services& services,
-                           std::uint64_t limit, Debugger* debugger = nullptr, const Sampling& sampling = {});
+                           std::uint64_t limit, const MachineOptions& options = {}, const Sampling& sampling = {});
 
 }  // namespace dendro::sgi_4d35

@@ -120,7 +120,7 @@ MachineType sgi_4d35_type() {
                  service_block::Services& services, std::uint64_t limit, const MachineOptions& options) {
     const Spec spec = resolve(parameters);
     if (level == Level::kFunction) return run_function(spec, image, services, limit, options);
-    if (level == Level::kEstimate) return run_estimate(spec, image, services, limit, options.debugger);
+    if (level == Level::kEstimate) return run_estimate(spec, image, services, limit, options);
     RunOptions run;
     run.machine = options;
     return level == Level::kCycle ? run_cycle(spec, image, services, limit, run)
