@@ -14,6 +14,8 @@ endforeach()
 set(MIPS_FLAGS -march=r3000 -mabi=32 -mfp32 -mno-abicalls -fno-pic -fno-pie -G0 -ffreestanding -fno-stack-protector
   -fno-tree-loop-distribute-patterns -ffp-contract=off -fno-asynchronous-unwind-tables -Wall -Wextra -Wno-missing-field-initializers)
 set(MIPS_OPTIMISE -O2)
+set(MIPS_LINK_FLAGS -no-pie -nostdlib -static -Wl,--build-id=none -Wl,-z,max-page-size=0x1000
+  -T ${PROJECT_SOURCE_DIR}/firmware/lib/mips/program.ld)
 set(MIPS_VARIANT "")
 
 # dendro_mips_objects(OUT FILES...): compiles C and assembly; OUT names the list of objects. Other flags in MIPS_OPTIMISE need another
@@ -44,7 +46,6 @@ function(dendro_mips_program target)
   set(compiled ${ARGN})
   list(FILTER compiled INCLUDE REGEX "[.]o$")
   list(APPEND objects ${compiled})
-  set(script ${PROJECT_SOURCE_DIR}/firmware/lib/mips/program.ld)
   set(outputs)
   foreach(link mapped:0x00400000: unmapped:0x80400000:-unmapped)
     string(REPLACE ":" ";" parts "${link}")
@@ -52,9 +53,8 @@ function(dendro_mips_program target)
     list(GET parts 2 suffix)
     set(output ${PROJECT_BINARY_DIR}/mips/${target}${suffix}.elf)
     add_custom_command(OUTPUT ${output}
-      COMMAND ${MIPS_GCC} ${MIPS_FLAGS} -no-pie -nostdlib -static -Wl,--defsym=BASE=${base} -Wl,--build-id=none
-              -Wl,-z,max-page-size=0x1000 -T ${script} ${objects} ${MIPS_LIBRARY_OBJECTS} -o ${output}
-      DEPENDS ${objects} ${MIPS_LIBRARY_OBJECTS} ${script} COMMENT "mips ${target}${suffix}.elf" VERBATIM)
+      COMMAND ${MIPS_GCC} ${MIPS_FLAGS} ${MIPS_LINK_FLAGS} -Wl,--defsym=BASE=${base} ${objects} ${MIPS_LIBRARY_OBJECTS} -o ${output}
+      DEPENDS ${objects} ${MIPS_LIBRARY_OBJECTS} ${PROJECT_SOURCE_DIR}/firmware/lib/mips/program.ld COMMENT "mips ${target}${suffix}.elf" VERBATIM)
     list(APPEND outputs ${output})
   endforeach()
   add_custom_target(${target} ALL DEPENDS ${outputs})

@@ -18,6 +18,8 @@
 
 namespace dendro {
 
+class Debugger;
+
 enum class Level { kFunction, kEstimate, kCycle, kClocked };
 
 const char* level_name(Level level);
@@ -85,6 +87,7 @@ struct MachineOptions {
   std::size_t activity = 0;                       ///< most samples of activity(), an even number; 0: none are taken
   std::map<std::uint32_t, std::string> counted;   ///< `function` only: microwords whose executions are counted
   std::function<void(std::int64_t tick)> progress;  ///< called now and then with the simulated time; may be empty
+  Debugger* debugger = nullptr;  ///< all levels but `clocked` of a machine with `exec`
   std::map<std::uint32_t, WordClocks>* word_clocks = nullptr;  ///< `cycle` of a machine with `exec`: by address
   trace::Writer* recorder = nullptr;  ///< `cycle` only: gathers the records of one boundary
 
@@ -149,7 +152,8 @@ struct ProgramMark {
 
 struct ProgramResult {
   bool stopped = false;  ///< by a service; otherwise the limit was reached
-  std::uint32_t pc = 0, return_address = 0;
+  std::uint32_t pc = 0, return_address = 0, stack_pointer = 0;
+  std::vector<std::uint8_t> stack;  ///< from the stack pointer on, at most so much as shows the callers
   std::uint64_t instructions = 0;
   std::int64_t cycles = 0;  ///< 0 at `function`
   double clock_hz = 0;

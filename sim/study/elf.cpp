@@ -122,16 +122,19 @@ void read_symbols(const Reader& in, ElfProgram& program) {
 
 }  // namespace
 
-std::string ElfProgram::place(std::uint32_t address) const {
+const ElfProgram::Symbol* ElfProgram::function_of(std::uint32_t address) const {
   const auto next =
       std::upper_bound(functions.begin(), functions.end(), address,
                        [](std::uint32_t a, const Symbol& symbol) { return a < symbol.address; });
-  if (next != functions.begin()) {
-    const Symbol& symbol = *(next - 1);
-    if (address - symbol.address < std::max(symbol.size, 4u))
-      return fmt::format("0x{:08x} ({}+0x{:x})", address, symbol.name, address - symbol.address);
-  }
-  return fmt::format("0x{:08x}", address);
+  if (next == functions.begin()) return nullptr;
+  const Symbol& symbol = *(next - 1);
+  return address - symbol.address < std::max(symbol.size, 4u) ? &symbol : nullptr;
+}
+
+std::string ElfProgram::place(std::uint32_t address) const {
+  const Symbol* function = function_of(address);
+  if (function == nullptr) return fmt::format("0x{:08x}", address);
+  return fmt::format("0x{:08x} ({}+0x{:x})", address, function->name, address - function->address);
 }
 
 ElfProgram read_elf(const std::string& bytes, const std::string& path) {

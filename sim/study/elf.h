@@ -20,6 +20,8 @@ struct ElfProgram {
   std::vector<Segment> segments;
   std::vector<Symbol> functions;  ///< sorted by address
 
+  /// The one that holds the address; null: none known.
+  const Symbol* function_of(std::uint32_t address) const;
   /// "main+0x10", or "0x00400100" where no function is known.
   std::string place(std::uint32_t address) const;
 };

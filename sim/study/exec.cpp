@@ -173,6 +173,7 @@ ExecOutput exec_program(const Catalogue& catalogue, const ExecArguments& argumen
   const MachineType* type = catalogue.machine(exec_preset(catalogue, arguments).machine);
   if (type->exec) return exec_elf(catalogue, arguments);
   const Prepared prepared = prepare(catalogue, arguments);
+  if (arguments.gdb_port) throw UserError("--gdb", 0, "", "GDB follows programs that are ELF files only");
   if (arguments.profile)
     throw UserError("--profile", 0, "", "profiles exist for programs that are ELF files only");
   if (!arguments.options.vcd_file.empty() && prepared.level != Level::kClocked)

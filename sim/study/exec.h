@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -20,6 +21,7 @@ struct ExecArguments {
   std::vector<std::string> settings;   ///< key=value of machine parameters
   std::vector<std::pair<std::uint32_t, std::uint32_t>> dumps;  ///< scratch address or pixel, how many
   bool profile = false;  ///< `cycle` of a machine whose programs are ELF files: cycles by function
+  std::optional<int> gdb_port;  ///< ELF files, `function` and `cycle`: wait there for GDB; 0: any free port
   MachineOptions options;
 };
 

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cstdlib>
+#include <memory>
 
 #include "models/parts/r3000/r3000_isa.h"
 #include "sim/base/check.h"
@@ -13,7 +14,10 @@
 #include "sim/base/error.h"
 #include "sim/study/algorithms.h"
 #include "sim/study/elf.h"
+#include "sim/study/exec_callers.h"
 #include "sim/study/exec_services.h"
+#include "sim/study/gdb_socket.h"
+#include "sim/study/worker.h"
 
 namespace dendro::study {
 namespace {
@@ -119,6 +123,12 @@ std::string fault_text(const CallServices::Fault& fault, const ElfProgram& progr
   return text + fmt::format(", Cause 0x{:08x}", fault.cause);
 }
 
+/// The R3010's interrupt has the monitor use the registers for itself.
+std::string callers_of(const CallServices::Fault& fault, const ElfProgram& program, const ProgramResult& result) {
+  if ((fault.cause >> 2 & 31) == r3000::kInt) return "";
+  return callers_text(program, result, fault.epc + (fault.cause & r3000::kCauseBd ? 4 : 0));
+}
+
 std::int64_t peak_rss() {
   rusage usage = {};
   getrusage(RUSAGE_SELF, &usage);
@@ -137,10 +147,10 @@ std::uint32_t main_bytes_of(const config::ParameterSet& parameters) {
 
 std::string ending_error(const CallServices& services, const ProgramResult& result, const ElfProgram& program,
                          std::uint64_t limit) {
-  if (services.fault) return fault_text(*services.fault, program);
+  if (services.fault) return fault_text(*services.fault, program) + callers_of(*services.fault, program, result);
   if (result.stopped) return "";
-  return fmt::format("did not end within {} instructions (--limit); it was at {}, last call from {}", limit,
-                     program.place(result.pc), program.place(result.return_address - 8));
+  return fmt::format("did not end within {} instructions (--limit); it was at {}{}", limit, program.place(result.pc),
+                     callers_text(program, result, result.pc));
 }
 
 void record_elf(const Catalogue& catalogue, const ExecArguments& arguments) {
@@ -168,18 +178,30 @@ ExecOutput exec_elf(const Catalogue& catalogue, const ExecArguments& arguments) 
     throw UserError("--profile", 0, "", "profiles exist at --level cycle only");
   if (!arguments.options.pipeline_file.empty() && level != Level::kClocked)
     throw UserError("--pipeline", 0, "", "pipeline logs exist at --level clocked only");
+  if (arguments.gdb_port && level == Level::kClocked)
+    throw UserError("--gdb", 0, "",
+                    "at --level clocked several words are under way at any time; --level cycle stops between them");
   const ElfProgram program = read_elf(config::read_text({false, arguments.program}, {}), arguments.program);
   const std::uint32_t main_bytes = main_bytes_of(preset.parameters);
   const ProgramImage image = place_program(program, arguments, main_bytes);
   const auto limit = arguments.options.tick_limit == 0 ? kDefaultTickLimit : arguments.options.tick_limit;
   HostServices services;
+  std::unique_ptr<GdbSocket> gdb;
+  if (arguments.gdb_port) {
+    gdb = std::make_unique<GdbSocket>(*arguments.gdb_port, [&services] { return services.exit_code; },
+                                      check_interrupt);
+    fmt::print(stderr, "waiting for GDB on 127.0.0.1:{}\n", gdb->port());
+  }
   const auto start = std::chrono::steady_clock::now();
   MachineOptions options = arguments.options;
   std::map<std::uint32_t, WordClocks> words;
   if (arguments.profile) options.word_clocks = &words;
+  options.debugger = gdb.get();
+  options.progress = [](std::int64_t) { check_interrupt(); };
   const ProgramResult result =
       type.exec(preset.parameters, level, image, services, static_cast<std::uint64_t>(limit), options);
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  if (gdb && gdb->killed()) throw UserError(arguments.program, 0, "", "GDB ended the program");
   const std::string wrong = ending_error(services, result, program, static_cast<std::uint64_t>(limit));
   if (!wrong.empty()) throw UserError(arguments.program, 0, "", wrong);
   ExecOutput output;

@@ -8,6 +8,8 @@
 #include <cstdio>
 #include <cstring>
 
+#include "sim/study/worker.h"
+
 namespace dendro::study {
 namespace {
 
@@ -106,8 +108,10 @@ long HostServices::read_file(std::uint32_t file, std::uint8_t* to, std::uint32_t
   const int host = host_file(file);
   if (host < 0) return -kBadFile;
   long done = 0;
-  do done = ::read(host, to, bytes);
-  while (done < 0 && errno == EINTR);
+  do {
+    check_interrupt();
+    done = ::read(host, to, bytes);
+  } while (done < 0 && errno == EINTR);
   return or_error(done);
 }
 
@@ -117,8 +121,10 @@ long HostServices::write_file(std::uint32_t file, const std::uint8_t* from, std:
   if (host == 1 && !shows_output_) return static_cast<long>(bytes);
   if (host == 1) std::fflush(stdout);
   long done = 0;
-  do done = ::write(host, from, bytes);
-  while (done < 0 && errno == EINTR);
+  do {
+    check_interrupt();
+    done = ::write(host, from, bytes);
+  } while (done < 0 && errno == EINTR);
   return or_error(done);
 }
 

@@ -93,6 +93,7 @@ TEST_F(ZbufferViews, SavedViewsThatDoNotSuitAreOneLine) {
   const std::string views = read("a/views.zbv");
   write("t.toml", scene("views = \"v.zbv\"\n"));
   expect_user_error("run t.toml", "v.zbv: cannot be read");
+  expect_user_error("run t.toml --set zbuffer_views.views=a", "a: cannot be read: it is a folder");
   write("v.zbv", views.substr(0, views.size() - 1000));
   expect_user_error("run t.toml", "v.zbv: is truncated or damaged");
   std::string other = views;
@@ -186,6 +187,10 @@ TEST_F(ZbufferViews, WhatCannotBeDrawnIsOneLine) {
   write("e.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\n");
   write("m.toml", scene("", "mesh = \"e.obj\"\n"));
   expect_user_error("run m.toml", "e.obj");
+  write("e.obj", "v 0 0 0\nv 1e7 0 0\nv 0 1 0\nf 1 2 3\n");
+  expect_user_error("run m.toml", "m.toml:15: object.mesh: a part of it lies 131072 m or more from the origin");
+  expect_user_error("run s.toml --set 'object.0.at=[0,0,1e6]'", "object.at: lies 131072 m");
+  expect_user_error("run s.toml --set 'camera.position=[0,0,1e6]'", "camera.position: lies 131072 m");
   expect_user_error("run s.toml --machine rds3000", "rds3000 has no firmware for zbuffer_views");
 }
 

@@ -34,7 +34,7 @@ Allowed allowed_in_parts(const std::string& path) {
 
 Allowed allowed_in_machines(const std::string& path) {
   const std::string machine = first_folders(path, 3);  // the file itself when it lies beside the machines
-  return {machine, "models/machines/machine.h", "models/parts/", "sim/base/", "sim/stats/", "sim/trace/", "sim/tlm/",
+  return {machine, "models/machines/machine.h", "models/machines/debuggee.h", "models/parts/", "sim/base/", "sim/stats/", "sim/trace/", "sim/tlm/",
           kConfigValues};
 }
 
@@ -48,7 +48,8 @@ Allowed allowed_in(const std::string& path) {
   if (starts_with(path, "firmware/tools/")) return {"firmware/tools/", "models/parts/", "sim/base/"};
   if (starts_with(path, "firmware/"))
     return {first_folders(path, 2), "firmware/lib/", "firmware/job.h", "sim/base/", "sim/scene/", "models/parts/host/host_port.h"};
-  if (starts_with(path, "sim/study/")) return {"sim/", "firmware/", "models/parts/", "models/machines/machine.h"};
+  if (starts_with(path, "sim/study/")) return {"sim/", "firmware/", "models/parts/", "models/machines/machine.h",
+            "models/machines/debuggee.h"};
   return {};
 }
 

@@ -50,7 +50,7 @@ TEST(Sgi4d35Estimate, TheTrueCountLiesInTheIntervalAndNear) {
   for (std::uint64_t seed = 1; seed <= 10; ++seed) {
     Sampling sampling;
     sampling.seed = seed;
-    const ProgramResult estimate = run_estimate(small(), image, services, UINT64_MAX, sampling);
+    const ProgramResult estimate = run_estimate(small(), image, services, UINT64_MAX, {}, sampling);
     EXPECT_EQ(exact.instructions, estimate.instructions);
     const auto truth = static_cast<double>(exact.cycles), guess = static_cast<double>(estimate.cycles);
     EXPECT_LT(std::abs(guess / truth - 1), 0.008) << "seed " << seed;
@@ -82,7 +82,7 @@ TEST(Sgi4d35Estimate, RandomProgramsEndAsAtFunction) {
     StopService services;
     for (const std::uint64_t limit : {std::uint64_t{20000}, std::uint64_t{1 + seed * 7919 % 900}}) {
       const ProgramResult expected = run_function(spec, image, services, limit);
-      const ProgramResult result = run_estimate(spec, image, services, limit, sampling);
+      const ProgramResult result = run_estimate(spec, image, services, limit, {}, sampling);
       ASSERT_EQ(expected.instructions, result.instructions) << "seed " << seed;
       ASSERT_EQ(expected.pc, result.pc) << "seed " << seed;
       ASSERT_EQ(expected.return_address, result.return_address) << "seed " << seed;

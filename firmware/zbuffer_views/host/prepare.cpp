@@ -79,6 +79,21 @@ std::vector<Placement> placements_of(const scene::Scene& scene, const Tree& tree
   return placements;
 }
 
+bool far(const glm::dvec3& p) { return !(std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z)}) < kZbvMostDistance); }
+
+/// Where single precision and the depths of the programs end.
+void check_near(const scene::Scene& scene, const Prepared& p) {
+  const std::string message = fmt::format("lies {} m or more from the origin", int(kZbvMostDistance));
+  const scene::Object& first = scene.objects.front();
+  if (far(p.tree.centre) || !(std::max(p.tree.radius, p.tree.half_height) < kZbvMostDistance))
+    throw UserError(first.source_where.file, first.source_where.line, first.mesh.empty() ? "object.tree" : "object.mesh",
+                    "a part of it " + message);
+  for (std::size_t i = 0; i < p.placements.size(); ++i)
+    if (far(p.placements[i].at)) throw UserError(scene.objects[i].where.file, scene.objects[i].where.line, "object.at", message);
+  for (const Frame& frame : p.frames)
+    if (far(frame.eye)) throw UserError(scene.camera.where.file, scene.camera.where.line, "camera.position", message);
+}
+
 glm::dvec3 middle_of(const std::vector<Placement>& placements) {
   glm::dvec3 low = placements.front().at, high = low;
   for (const Placement& place : placements) low = glm::min(low, place.at), high = glm::max(high, place.at);
@@ -188,6 +203,7 @@ Prepared prepare(const scene::Scene& scene, RunSettings& settings) {
   read_camera(scene, p);
   p.near = single(options.real("near", 0.05, 1e-3, 1e6));
   read_frames(scene, options, p);
+  check_near(scene, p);
   check_outside(scene, p);
   read_shadows(options, p);
   p.background = read_colour(options, "background", {0.75, 0.82, 0.90});

@@ -34,6 +34,7 @@ enum zbv_limits {
   kZbvMostColours = 254,
   kZbvMostTrees = 64,
   kZbvMostFrames = 4096,
+  kZbvMostDistance = 1 << 17, /* world units from the origin, and coordinates from a tree's centre, are below */
   kZbvTurns = 256 /* steps of a tree's rotation in a full turn */
 };
 

@@ -94,8 +94,8 @@ void check_finite(const char* file, const char* what, const float* values, size_
 void check_near(const char* file, const char* what, const float* values, size_t count) {
   check_finite(file, what, values, count);
   for (size_t i = 0; i < count; ++i)
-    if (values[i] >= kMostDistance || values[i] <= -kMostDistance)
-      fail(file, "%s: lies %d units or more from the origin", what, kMostDistance);
+    if (values[i] >= kZbvMostDistance || values[i] <= -kZbvMostDistance)
+      fail(file, "%s: lies %d units or more from the origin", what, kZbvMostDistance);
 }
 
 struct zbv_colour* load_colours(const struct input* from, uint32_t colours) {

@@ -41,8 +41,7 @@ void finish_output(const struct output* to, const void* head, size_t head_bytes)
 void check_range(const char* file, const char* key, uint32_t value, uint32_t low, uint32_t high);
 /* Every word is a finite single. */
 void check_finite(const char* file, const char* what, const float* values, size_t count);
-/* Every |value| is below kMostDistance, so that all depths are below kZbvFarDepth. */
-enum { kMostDistance = 1 << 17 };
+/* Every |value| is below kZbvMostDistance, so that all depths are below kZbvFarDepth. */
 void check_near(const char* file, const char* what, const float* values, size_t count);
 
 struct job {

@@ -5,6 +5,11 @@
 #include "sim/base/check.h"
 
 namespace dendro::sgi_4d35 {
+namespace {
+
+constexpr std::uint32_t kMostStackKept = 64 << 10;
+
+}  // namespace
 
 Board::Board(std::uint32_t main_bytes, const ProgramImage& image, service_block::Services& calls)
     : memory(main_bytes), services(calls), program(image.program) {
@@ -26,6 +31,13 @@ ProgramResult result_of(const r3000::State& state, const Board& board, const Spe
   result.stopped = board.stopped();
   result.pc = state.pc;
   result.return_address = state.r[31];
+  result.stack_pointer = state.r[29];
+  const auto bytes = static_cast<std::uint32_t>(board.memory.size());
+  const std::uint32_t used = (board.program.mapped ? r3000::kKseg0 : r3000::kKseg0 + bytes) - result.stack_pointer;
+  if (used <= DENDRO_STACK_BYTES && used <= bytes) {
+    const auto from = board.memory.end() - used;
+    result.stack.assign(from, from + std::min(used, kMostStackKept));
+  }
   result.instructions = state.instructions;
   result.clock_hz = spec.clock_hz;
   return result;

@@ -58,6 +58,8 @@ struct Board {
 /// The processor as the loader leaves it: at the image's first word, in kernel mode.
 void start(r3000::State& state, const ProgramImage& image);
 
+constexpr std::uint64_t kProgressWords = std::uint64_t{1} << 22;  ///< between two calls of MachineOptions::progress
+
 /// What every level says of a run: where it ended, instructions.
 ProgramResult result_of(const r3000::State& state, const Board& board, const Spec& spec);
 

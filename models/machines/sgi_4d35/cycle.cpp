@@ -1,6 +1,9 @@
 #include "models/machines/sgi_4d35/cycle.h"
 
+#include <algorithm>
+
 #include "models/machines/sgi_4d35/board.h"
+#include "models/machines/sgi_4d35/debug.h"
 #include "models/machines/sgi_4d35/marks.h"
 #include "models/machines/sgi_4d35/pipeline.h"
 #include "models/parts/r3000/r3000.h"
@@ -76,7 +79,13 @@ ProgramResult run_cycle(const Spec& spec, const ProgramImage& image, service_blo
   Log log(options);
   if (log.wanted()) core.time().listen(&log);
   MarkedCore words(core, marked);
-  for (std::uint64_t left = limit; left != 0 && !port.stopped();) left = words.run(left);
+  const auto run = [&words](std::uint64_t budget) { return words.run(budget); };
+  std::uint64_t left = debugged(options.machine.debugger, core, run, port, limit);
+  while (left != 0 && !port.stopped()) {
+    const std::uint64_t now = std::min(left, kProgressWords);
+    left -= now - words.run(now);
+    if (options.machine.progress) options.machine.progress(static_cast<std::int64_t>(core.time().bias));
+  }
   const r3000::State& state = core.state();
   ProgramResult result = result_of(state, port, spec);
   Counters counters;

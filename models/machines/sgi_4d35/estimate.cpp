@@ -5,6 +5,7 @@
 #include <random>
 
 #include "models/machines/sgi_4d35/board.h"
+#include "models/machines/sgi_4d35/debug.h"
 #include "models/machines/sgi_4d35/pipeline.h"
 #include "models/parts/r3000/r3000.h"
 
@@ -47,13 +48,15 @@ UnitStats estimate_of(std::uint64_t exact, const Sums& sums, const Sampling& sam
 }  // namespace
 
 ProgramResult run_estimate(const Spec& spec, const ProgramImage& image, service_block::Services& services,
-                           std::uint64_t limit, const Sampling& sampling) {
+                           std::uint64_t limit, const MachineOptions& options, const Sampling& sampling) {
   Board board(spec.main_bytes, image, services);
   r3000::Core<Board, Pipeline> core(spec.processor, board, spec);
   start(core.state(), image);
   std::mt19937_64 random(sampling.seed);
   Sums first, rest;
-  std::uint64_t left = limit;
+  const auto exactly = [&core](std::uint64_t words) { return core.run(words); };
+  std::uint64_t left = debugged(options.debugger, core, exactly, board, limit);
+  const std::uint64_t let_go = left;
   const auto run = [&](std::uint64_t words) {
     const std::uint64_t budget = std::min(left, words), unused = core.run(budget);
     left -= budget - unused;
@@ -65,7 +68,7 @@ ProgramResult run_estimate(const Spec& spec, const ProgramImage& image, service_
   };
   const auto going = [&] { return left != 0 && !board.stopped(); };
   // The beginning is exact: a short program is, and there is always a window.
-  while (going() && limit - left < 2 * sampling.period) window(first);
+  while (going() && let_go - left < 2 * sampling.period) window(first);
   const std::uint64_t exact_words = limit - left, exact = core.time().bias;
   while (going()) {
     const std::uint64_t before = random() % (sampling.period - sampling.lead_in - sampling.window);
@@ -77,6 +80,7 @@ ProgramResult run_estimate(const Spec& spec, const ProgramImage& image, service_
     core.warm(true);
     run(sampling.period - before - sampling.lead_in - sampling.window);
     core.warm(false);
+    if (options.progress) options.progress(static_cast<std::int64_t>(core.time().bias));
   }
   ProgramResult result = result_of(core.state(), board, spec);
   if (limit != 0) core.settle();

@@ -13,9 +13,9 @@ struct Sampling {
 
 /// Level `estimate`: function, with the caches kept up to date, and windows of level `cycle`. The result's cycles are
 /// the windows' mean times the words; the unit sgi_4d35.estimate has the 99.7 % interval `low` to `high`, which holds
-/// for the sampling alone, and the number of windows. The first two
-/// periods are exact.
+/// for the sampling alone, and the number of windows. The words under a debugger and the two periods behind them are
+/// exact.
 ProgramResult run_estimate(const Spec& spec, const ProgramImage& image, service_block::Services& services,
-                           std::uint64_t limit, const Sampling& sampling = {});
+                           std::uint64_t limit, const MachineOptions& options = {}, const Sampling& sampling = {});
 
 }  // namespace dendro::sgi_4d35

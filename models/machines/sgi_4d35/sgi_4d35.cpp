@@ -121,8 +121,8 @@ MachineType sgi_4d35_type() {
   type.exec = [](const config::ParameterSet& parameters, Level level, const ProgramImage& image,
                  service_block::Services& services, std::uint64_t limit, const MachineOptions& options) {
     const Spec spec = resolve(parameters);
-    if (level == Level::kFunction) return run_function(spec, image, services, limit);
-    if (level == Level::kEstimate) return run_estimate(spec, image, services, limit);
+    if (level == Level::kFunction) return run_function(spec, image, services, limit, options);
+    if (level == Level::kEstimate) return run_estimate(spec, image, services, limit, options);
     if (options.recorder != nullptr && level == Level::kCycle)
       return run_recorded(spec, image, services, limit, *options.recorder);
     RunOptions run;

@@ -50,6 +50,10 @@ class Core {
   State& state() { return s_; }
   const State& state() const { return s_; }
   void forget();
+  /// As forget(), after a change of memory alone, in the page of this address.
+  void forget_code(std::uint32_t physical);
+  /// The word at `address` is the next one; timed: as behind an exception, after two positions without one.
+  void jump(std::uint32_t address);
 
   /// Executes up to `budget` words; one that raises an exception counts. Returns what is left of the budget,
   /// more than 0 only if the port stopped the machine.

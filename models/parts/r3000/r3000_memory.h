@@ -23,6 +23,28 @@ void Core<Port, Timing>::forget() {
 }
 
 template <class Port, class Timing>
+void Core<Port, Timing>::forget_code(std::uint32_t physical) {
+  if (code_.erase(physical & kPageMask) == 0) return;
+  for (auto& fetches : fetches_) fetches.fill(FetchMapping());
+  careful_ = true;
+  refetch_ = true;
+}
+
+template <class Port, class Timing>
+void Core<Port, Timing>::jump(std::uint32_t address) {
+  if constexpr (kTimed) {
+    catch_up(0);
+    careful_ = true;
+    lost_ = 2;
+  }
+  finish_load(s_);
+  s_.pc = address;
+  s_.next_pc = address + 4;
+  s_.in_slot = false;
+  refetch_ = true;
+}
+
+template <class Port, class Timing>
 bool Core<Port, Timing>::misaligned(std::uint32_t address, unsigned size, Access access) {
   if ((address & (size - 1)) == 0) return false;
   fault_ = {};
@@ -115,11 +137,8 @@ bool Core<Port, Timing>::slow_store(std::uint32_t address, unsigned size, std::u
         time_.write_uncached(physical);
     }
     if (code == code_.end()) return true;
-    code_.erase(code);
-    for (auto& fetches : fetches_) fetches.fill(FetchMapping());
+    forget_code(physical);
     leave_ |= kTimed;
-    careful_ = true;
-    refetch_ = true;
     return true;
   }
   leave_ = touched_ = true;

@@ -60,7 +60,8 @@ TEST(MipsPrograms, ReportsFaultsWithPlaceAndCause) {
     const char* what;
     const char* text;
   };
-  for (const Case& c : {Case{"u", "AdEL"}, {"n", "TLBL"}, {"k", "AdEL"}, {"d", "Bp"}, {"r", "RI"}}) {
+  for (const Case& c : {Case{"u", "AdEL"}, {"w", "AdES"}, {"n", "TLBL"}, {"k", "AdEL"}, {"d", "Bp"}, {"r", "RI"},
+                         {"h", "TLBS"}}) {
     const Ran ran = run(model(elf("fault"), c.what));
     EXPECT_EQ(2, ran.status) << c.what;
     EXPECT_NE(std::string::npos, ran.errors.find(std::string("raised ") + c.text + " at 0x")) << ran.errors;
@@ -74,6 +75,24 @@ TEST(MipsPrograms, AnEndlessProgramEndsAtItsLimit) {
   EXPECT_EQ(2, ran.status);
   EXPECT_NE(std::string::npos, ran.errors.find("100000 instructions")) << ran.errors;
   EXPECT_NE(std::string::npos, ran.errors.find("(main+0x")) << ran.errors;
+}
+
+TEST(MipsPrograms, AStackThatOverflowsAndAnEndlessProgramSayWhoCalledThem) {
+  for (const char* suffix : {"", "-unmapped"})
+    for (const char* level : {"function", "estimate", "cycle", "clocked"}) {
+      const Ran ran = run(model(elf(std::string("fault") + suffix), "c", std::string("--limit 20000 --level ") + level));
+      EXPECT_EQ(2, ran.status) << level;
+      std::size_t at = ran.errors.find("did not end within 20000 instructions (--limit); it was at 0x");
+      for (const char* part : {"(spin+0x", ", called from 0x", "(outer+0x", "(main+0x", "(__start+0x"}) {
+        at = ran.errors.find(part, at);
+        EXPECT_NE(std::string::npos, at) << part << " at " << level << suffix << ": " << ran.errors;
+      }
+      EXPECT_EQ(ran.errors.size() - 1, ran.errors.find('\n')) << ran.errors;
+    }
+  const Ran deep = run(model(elf("fault"), "s"));
+  EXPECT_EQ(2, deep.status);
+  EXPECT_NE(std::string::npos, deep.errors.find("raised TLBS at 0x")) << deep.errors;
+  EXPECT_NE(std::string::npos, deep.errors.find("(deeper+0x")) << deep.errors;
 }
 
 TEST(MipsPrograms, TheJsonOfARunHasNoTimeAtFunction) {
