@@ -54,7 +54,7 @@ void expect_replays(const std::string& bytes, const Spec& spec) {
 constexpr const char* kBoundaries[] = {kMemoryBoundary, kProcessorBoundary};
 
 TEST(Sgi4d35Replay, WhatIsBehindABoundaryDoesAloneWhatItDidInTheMachine) {
-  const std::uint32_t first = setting("DENDRO_SEED", 1), count = std::getenv("DENDRO_SEED") ? 1 : setting("DENDRO_PROGRAMS", 60);
+  const std::uint32_t first = setting("DENDRO_SEED", 1), count = std::getenv("DENDRO_SEED") ? 1 : setting("DENDRO_PROGRAMS", 300) / 5;
   for (std::uint32_t seed = first; seed < first + count && !HasFatalFailure(); ++seed)
     for (const char* boundary : kBoundaries) {
       SCOPED_TRACE(std::string(boundary) + ", repeat with DENDRO_SEED=" + std::to_string(seed));
@@ -65,7 +65,7 @@ TEST(Sgi4d35Replay, WhatIsBehindABoundaryDoesAloneWhatItDidInTheMachine) {
 }
 
 TEST(Sgi4d35Replay, SoItDoesFromTheMiddleOfARun) {
-  const std::uint32_t first = setting("DENDRO_SEED", 1000), count = std::getenv("DENDRO_SEED") ? 1 : setting("DENDRO_PROGRAMS", 60);
+  const std::uint32_t first = setting("DENDRO_SEED", 1000), count = std::getenv("DENDRO_SEED") ? 1 : setting("DENDRO_PROGRAMS", 300) / 5;
   unsigned opened = 0;
   for (std::uint32_t seed = first; seed < first + count && !HasFatalFailure(); ++seed)
     for (const char* boundary : kBoundaries) {
