@@ -21,7 +21,7 @@ namespace {
 
 struct Calls : service_block::Services {
   service_block::CallResult call(std::uint32_t number, const std::array<std::uint32_t, 4>&,
-                                 std::vector<std::uint8_t>&) override {
+                                 base::ZeroedBytes&) override {
     return {0, false, number < DENDRO_MARK_START || number > DENDRO_MARK_LABEL};
   }
 };
