@@ -33,6 +33,10 @@ void write_folder(study::RunFolder& folder, const std::vector<stability::Result>
 }
 
 int check(const study::Catalogue& catalogue, const Options& options) {
+  if (options.stability.cases == std::vector<std::string>{"list"}) {
+    fmt::print("{}", study::stability_list(study::stability_suites()));
+    return kGood;
+  }
   study::OutputFile json(options.json);
   std::optional<study::RunFolder> folder;
   if (!options.out.empty()) folder.emplace(options.out);
@@ -52,7 +56,7 @@ void add_stability(CLI::App& app, const study::Catalogue& catalogue, Action& act
   o->stability.jobs = study::default_jobs();
   CLI::App* command =
       app.add_subcommand("stability", "the hard numerical cases: measured error beside its bound");
-  command->add_option("case", o->stability.cases, "ids, such as N-A1 or X2; default: all");
+  command->add_option("case", o->stability.cases, "ids, such as N-A1 or X2; default: all; `list` names them");
   command->add_option("--out", o->out, "folder for rows, curves and their pictures");
   command->add_option("--json", o->json, "also write the rows here; - is standard output");
   command->add_option("--seed", o->stability.seed, "of the random cases");

@@ -7,6 +7,8 @@
 #include <nlohmann/json.hpp>
 
 #include "firmware/half_space/stability/cases.h"
+#include "firmware/lib/workstation_rig.h"
+#include "firmware/zbuffer_views/stability/cases.h"
 #include "sim/base/check.h"
 #include "sim/base/error.h"
 #include "sim/config/preset.h"
@@ -16,6 +18,7 @@
 #include "sim/study/run.h"
 #include "sim/study/stability_tree.h"
 #include "sim/study/worker.h"
+#include "sim/study/workstation.h"
 
 namespace dendro::study {
 namespace {
@@ -27,17 +30,18 @@ using stability::Row;
 using Json = nlohmann::json;
 
 /// A catalogue machine with one preset's parameters.
-class CatalogueRig : public stability::Rig {
+class CatalogueRig : public stability::Rig, public stability::WorkstationRig {
  public:
-  CatalogueRig(const Catalogue& catalogue, const std::string& machine)
-      : preset_(config::load_preset(machine, catalogue.presets(), {"--machine", 0})),
+  CatalogueRig(const Catalogue& catalogue, const StabilitySuite& suite)
+      : preset_(config::load_preset(suite.machine, catalogue.presets(), {"--machine", 0})),
         type_(catalogue.machine(preset_.machine)) {
-    DENDRO_CHECK(type_ != nullptr, "{}", machine);
+    DENDRO_CHECK(type_ != nullptr, "{}", suite.machine);
+    set(suite.parameters);
   }
 
   std::unique_ptr<Rig> with(const std::map<std::string, std::int64_t>& parameters) const override {
     auto other = std::make_unique<CatalogueRig>(*this);
-    for (const auto& [key, value] : parameters) other->preset_.parameters.set(key, value, {"stability", 0});
+    other->set(parameters);
     return other;
   }
 
@@ -73,7 +77,20 @@ class CatalogueRig : public stability::Rig {
     inspect(view);
   }
 
+  std::string program_bytes(const std::string& program) const override { return shipped_program(program); }
+
+  std::string exec_bytes(const std::string& program, const std::string& bytes, const std::vector<std::string>& arguments,
+                         stability::Files& files) const override {
+    MemoryServices services(files);
+    run_elf(*type_, preset_.parameters, Level::kFunction, {}, program, bytes, arguments, services);
+    return services.output;
+  }
+
  private:
+  void set(const std::map<std::string, std::int64_t>& parameters) {
+    for (const auto& [key, value] : parameters) preset_.parameters.set(key, value, {"stability", 0});
+  }
+
   config::Preset preset_;
   const MachineType* type_;
 };
@@ -125,10 +142,20 @@ Json to_json(const Row& row) {
 
 }  // namespace
 
+std::string stability_list(const std::vector<StabilitySuite>& suites) {
+  std::string text;
+  for (const StabilitySuite& suite : suites)
+    for (const stability::Case& one : suite.cases)
+      text += fmt::format("{:6} {:14} {:20} {}\n", one.id, suite.algorithm, suite.machine, one.what);
+  return text;
+}
+
 const std::vector<StabilitySuite>& stability_suites() {
   static const std::vector<StabilitySuite> list = {
-      {"half_space", "rds3000:fg86", half_space::stability_cases()},
-      {"half_space", "pixel-planes:pxpl4", half_space::planes_stability_cases()}};
+      {"half_space", "rds3000:fg86", {}, half_space::stability_cases()},
+      {"half_space", "pixel-planes:pxpl4", {}, half_space::planes_stability_cases()},
+      // The least memory: hundreds of fresh machines, each of which clears it.
+      {"zbuffer_views", "sgi-4d35", {{"memory.main_bytes", 32 << 20}}, zbuffer_views::stability_cases()}};
   return list;
 }
 
@@ -138,7 +165,7 @@ std::vector<Result> run_stability(const Catalogue& catalogue, const std::vector<
   std::vector<std::function<std::string()>> tasks;
   for (const Chosen& c : chosen)
     tasks.emplace_back([&catalogue, c, seed = options.seed] {
-      return to_bytes(c.one->run(CatalogueRig(catalogue, c.suite->machine), seed));
+      return to_bytes(c.one->run(CatalogueRig(catalogue, *c.suite), seed));
     });
   std::size_t done = 0;
   if (progress) progress->runs("stability", 0, tasks.size());

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cstdint>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -13,11 +15,15 @@ namespace dendro::study {
 struct StabilitySuite {
   std::string algorithm;
   std::string machine;  ///< NAME or NAME:PRESET
+  std::map<std::string, std::int64_t> parameters;  ///< that differ from the preset's
   std::vector<stability::Case> cases;
 };
 
 /// The one list of suites.
 const std::vector<StabilitySuite>& stability_suites();
+
+/// A line per case: id, algorithm, machine, what it is about.
+std::string stability_list(const std::vector<StabilitySuite>& suites);
 
 struct StabilityOptions {
   std::vector<std::string> cases;  ///< ids; empty: all

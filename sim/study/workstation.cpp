@@ -45,27 +45,33 @@ std::string shipped_program(const std::string& name) {
   return bytes;
 }
 
-ElfWorkstation::ElfWorkstation(const RunRequest& request, const ProgramJob& job, std::string folder, Progress* progress)
-    : request_(request), job_(job), folder_(std::move(folder)), progress_(progress) {}
-
-void ElfWorkstation::run(const std::string& program, const std::vector<std::string>& arguments, bool timed) {
-  const config::ParameterSet& parameters = request_.preset.parameters;
-  const ElfProgram elf = read_elf(shipped_program(program), program);
+ProgramResult run_elf(const MachineType& type, const config::ParameterSet& parameters, Level level, const MachineOptions& options,
+                      const std::string& program, const std::string& bytes, const std::vector<std::string>& arguments,
+                      MemoryServices& services) {
+  const ElfProgram elf = read_elf(bytes, program);
   ExecArguments call;
   call.program = program;
   call.arguments = arguments;
   const ProgramImage image = place_program(elf, call, main_bytes_of(parameters));
-  const auto limit = static_cast<std::uint64_t>(request_.options.tick_limit == 0 ? kDefaultTickLimit : request_.options.tick_limit);
-  if (progress_ != nullptr) progress_->phase(program);
-  MemoryServices services(files_, &large_files_);
-  const ProgramResult result = request_.type->exec(parameters, timed ? request_.level : Level::kFunction, image, services, limit,
-                                                   request_.options);
+  const auto limit = static_cast<std::uint64_t>(options.tick_limit == 0 ? kDefaultTickLimit : options.tick_limit);
+  const ProgramResult result = type.exec(parameters, level, image, services, limit, options);
   const std::string wrong = ending_error(services, result, elf, limit);
   if (!wrong.empty()) throw UserError(program, 0, "", wrong);
   if (services.exit_code.value_or(0) != 0) {
     const std::string said = first_line(services.errors);
     throw UserError(program, 0, "", said.empty() ? fmt::format("ended with {}", *services.exit_code) : said);
   }
+  return result;
+}
+
+ElfWorkstation::ElfWorkstation(const RunRequest& request, const ProgramJob& job, std::string folder, Progress* progress)
+    : request_(request), job_(job), folder_(std::move(folder)), progress_(progress) {}
+
+void ElfWorkstation::run(const std::string& program, const std::vector<std::string>& arguments, bool timed) {
+  if (progress_ != nullptr) progress_->phase(program);
+  MemoryServices services(files_, &large_files_);
+  const ProgramResult result = run_elf(*request_.type, request_.preset.parameters, timed ? request_.level : Level::kFunction,
+                                       request_.options, program, shipped_program(program), arguments, services);
   clock_hz_ = result.clock_hz;
   if (timed) {
     instructions_ += result.instructions;

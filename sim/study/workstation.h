@@ -14,6 +14,11 @@ namespace dendro::study {
 /// The bytes of a program that ships with dendro: "zbuffer_views_polygons" is embedded as "mips/zbuffer_views_polygons.elf.hex".
 std::string shipped_program(const std::string& name);
 
+/// Runs a program on a fresh machine; `program` is its name in messages. Throws UserError when it does not end with 0.
+ProgramResult run_elf(const MachineType& type, const config::ParameterSet& parameters, Level level, const MachineOptions& options,
+                      const std::string& program, const std::string& bytes, const std::vector<std::string>& arguments,
+                      MemoryServices& services);
+
 /// A machine whose programs are ELF files, as a job uses it in one run: files in memory, what programs took is added up.
 class ElfWorkstation : public Workstation {
  public:

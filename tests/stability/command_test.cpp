@@ -15,7 +15,7 @@ TEST_F(Stability, EveryCaseHoldsAndItsRowsHaveTheContractsKeys) {
   const json s = json::parse(read("s.json"));
   EXPECT_EQ("stability", s["command"]);
   for (const char* id : {"N-A1", "N-A2", "N-A3", "N-A4", "N-A5", "N-A6", "N-A7", "N-A8", "N-A9", "N-A10", "X1", "X2",
-                         "X3", "X4", "X6", "N-P1", "N-P2", "N-P3", "N-P4"})
+                         "X3", "X4", "X6", "N-P1", "N-P2", "N-P3", "N-P4", "N-B1", "N-B2", "N-B3", "N-B4", "N-B5", "N-B6", "N-B7", "N-B8"})
     EXPECT_TRUE(std::any_of(s["rows"].begin(), s["rows"].end(), [&](const json& row) {
       return row["case"] == id;
     })) << id;
@@ -47,6 +47,14 @@ TEST_F(Stability, TheSeedDecidesEverythingRandomAndChosenCasesComeAlone) {
   EXPECT_NE(a.out, other.out);
   const json rows = json::parse(a.out)["rows"];
   for (const json& row : rows) EXPECT_TRUE(row["case"] == "X3" || row["case"] == "N-A10") << row;
+}
+
+TEST_F(Stability, ListNamesEveryCaseWithItsMachineAndRunsNone) {
+  const Result result = dendro("stability list");
+  ASSERT_EQ(0, result.status) << result.err;
+  for (const char* part : {"N-A1 ", "N-P4 ", "N-B8 ", "sgi-4d35", "pixel-planes:pxpl4", "rds3000:fg86"})
+    EXPECT_NE(std::string::npos, result.out.find(part)) << part;
+  EXPECT_EQ(result.out.npos, result.out.find("bounds hold"));
 }
 
 TEST_F(Stability, BadInputIsOneLineAndLeavesNothing) {

@@ -9,6 +9,7 @@
 #include "firmware/half_space/stability/cases.h"
 #include "models/machines/pixel_planes/pixel_planes.h"
 #include "models/machines/rds3000/rds3000.h"
+#include "models/machines/sgi_4d35/sgi_4d35.h"
 #include "sim/base/error.h"
 #include "sim/study/algorithms.h"
 #include "sim/study/stability.h"
@@ -21,7 +22,7 @@ using stability::Result;
 using stability::Row;
 using Json = nlohmann::json;
 
-Catalogue catalogue() { return {{rds3000::rds3000_type(), pixel_planes::pixel_planes_type()}, algorithms(), ""}; }
+Catalogue catalogue() { return {{rds3000::rds3000_type(), pixel_planes::pixel_planes_type(), sgi_4d35::sgi_4d35_type()}, algorithms(), ""}; }
 
 std::vector<Result> run(const std::vector<StabilitySuite>& suites, const std::vector<std::string>& cases,
                         std::uint64_t seed = 1) {

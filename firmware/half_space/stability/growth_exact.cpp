@@ -6,9 +6,11 @@
 #include <optional>
 #include <random>
 
-#include "firmware/half_space/stability/big_real.h"
+#include "firmware/lib/big_real.h"
 
 namespace dendro::half_space {
+
+using stability::BigReal;
 namespace {
 
 using Vector = std::array<BigReal, 3>;

@@ -72,6 +72,7 @@ std::uint64_t Pipeline::fetch(std::uint32_t address, std::uint64_t now, bool war
   if (!instruction_.hit(address)) {
     ++instruction_misses_;
     instruction_.fill(address);
+    ++fetch_generation_;
     if (warm) return now;
     const unsigned words = spec_.instruction_cache.refill_words;
     const std::uint64_t start = bus_.read_block(block, words, now);
@@ -143,6 +144,7 @@ void Pipeline::in_no_memory() { waits_[waiting_++] = {}; }
 void Pipeline::run_clock(std::uint64_t clock) {
   if (swap_.kind == Event::kSwapped) {
     swap_.kind = Event::kNone;
+    ++fetch_generation_;
     if (swap_.valid)
       instruction_.store_word(swap_.address);
     else

@@ -34,9 +34,12 @@ class Pipeline {
   Counters counters(std::uint64_t words, std::uint64_t last) const;
 
   // Data, in program order. Physical addresses; `read` and `write` are of cached main memory.
-  void read(std::uint32_t address) {
+  /// False: it misses.
+  bool read(std::uint32_t address) {
     ++data_accesses_;
-    if (__builtin_expect(!data_.hit(address), 0)) miss(address);
+    if (__builtin_expect(data_.hit(address), 1)) return true;
+    miss(address);
+    return false;
   }
   void write(std::uint32_t address, unsigned size) {
     if (size == 4) {
@@ -57,6 +60,8 @@ class Pipeline {
   bool in_mem() const { return event_.kind != Event::kNone; }
 
   // IF.
+  /// Changes whenever a word of the instruction cache does.
+  std::uint32_t fetch_generation() const { return fetch_generation_; }
   std::uint32_t fetch_edge() const { return instruction_.refill_bytes() - 1; }
   bool has_word(std::uint32_t address) const { return instruction_.hit(address); }
   void count_fetches(std::uint64_t words) { instruction_accesses_ += words; }
@@ -161,7 +166,7 @@ class Pipeline {
   InAlu in_alu_;
   std::uint64_t multiplier_start_ = 0, multiplier_free_ = 0;
   std::uint64_t stream_start_ = 0, stream_end_ = 0;  ///< read of the instruction block at stream_block_
-  std::uint32_t stream_block_ = 0;
+  std::uint32_t stream_block_ = 0, fetch_generation_ = 1;
   Waiting waits_[4];
   unsigned waiting_ = 0, notes_ = 0;
   Listener* listener_ = nullptr;

@@ -7,7 +7,9 @@
 #include <utility>
 #include <vector>
 
+#include "models/parts/r3000/r3000_block.h"
 #include "models/parts/r3000/r3000_state.h"
+#include "models/parts/r3010/r3010_quick.h"
 
 namespace dendro::r3000 {
 
@@ -64,23 +66,25 @@ class Core {
 
  private:
   static constexpr bool kTimed = Timing::kTimed;
+  struct CodePage {
+    std::array<Decoded, kPageWords> words;
+    std::uint32_t physical = 0;
+    bool plain = true;  ///< no word of it changes translation
+    std::vector<typename Timing::Issue> issues;
+    std::array<std::unique_ptr<Block>, kPageWords> blocks;  ///< by their first word, made when asked for
+  };
   struct FetchMapping {
     std::uint32_t tag = 1, physical = 0;
+    CodePage* page = nullptr;
   };
   struct Mapping {
     std::uint32_t tag = 1;          ///< page of the virtual address; 1: none
     std::uint32_t physical = 0;     ///< its address
     std::uint8_t* bytes = nullptr;  ///< of its page
   };
-  static constexpr unsigned kMappings = 256, kPageWords = 1024;
+  static constexpr unsigned kMappings = 256;
   struct Maps {
     std::array<Mapping, kMappings> read, write;
-  };
-
-  struct CodePage {
-    std::array<Decoded, kPageWords> words;
-    bool plain = true;  ///< no word of it changes translation
-    std::vector<typename Timing::Issue> issues;
   };
 
   static std::uint32_t load32(const std::uint8_t* p) {
@@ -92,6 +96,10 @@ class Core {
     value = __builtin_bswap32(value);
     std::memcpy(p, &value, 4);
   }
+  static void store16(std::uint8_t* p, std::uint32_t value) {
+    p[0] = static_cast<std::uint8_t>(value >> 8);
+    p[1] = static_cast<std::uint8_t>(value);
+  }
   static std::uint32_t load16(const std::uint8_t* p) { return static_cast<std::uint32_t>(p[0] << 8 | p[1]); }
 
   Maps& maps() { return maps_[s_.user()]; }
@@ -101,17 +109,28 @@ class Core {
   bool slow_load(std::uint32_t address, unsigned size, std::uint32_t& value);
   bool slow_store(std::uint32_t address, unsigned size, std::uint32_t value);
   bool misaligned(std::uint32_t address, unsigned size, Access access);
-  const CodePage* fetch_page(std::uint32_t address);
+  CodePage* fetch_page(std::uint32_t address);
+  CodePage* decode_code(std::uint32_t physical);
   bool coprocessor1();
   template <Pace kPace>
   std::uint64_t run_plain(std::uint64_t budget);
+  /// Words one by one, at the pace of the moment.
+  std::uint64_t run_words(std::uint64_t budget);
   std::uint64_t run_paced(std::uint64_t budget);
+
+  // Blocks: r3000_blocks.h.
+  template <Pace kPace>
+  std::uint64_t run_blocks(std::uint64_t budget);
+  CodePage* known_page(std::uint32_t address);
+  Block* block_at(CodePage& page, unsigned index);
+  bool slow_fp(std::uint32_t word);
+
   void run_after_load();
   bool execute_cp0(const Decoded& d);
   bool execute_fp(const Decoded& d);
   void fpu_line();
   bool control_to_fpu(std::uint32_t value);
-  void multiply_divide(const Decoded& d);
+  void multiply_divide(Op op, std::uint32_t a, std::uint32_t b);
   bool load_part(const Decoded& d, bool left, std::uint32_t& value);
   bool store_part(const Decoded& d, bool left);
 
@@ -126,6 +145,7 @@ class Core {
   void lose_positions();
   void interrupted();
   bool may_hurry() const;
+  void hurry();
 
   Timing time_;
   const Spec spec_;
@@ -143,11 +163,15 @@ class Core {
   bool deferred_ = false;  ///< the fetch of the word behind the next is put off, and what comes behind it
   std::uint32_t deferred_address_ = 0;
   unsigned lost_ = 0;  ///< positions before the word at pc in which nothing executes
-  std::array<FetchMapping, kTimed ? kMappings : 1> fetches_[2];  ///< plain cached pages
+  std::array<FetchMapping, kMappings> fetches_[2];  ///< decoded pages; timed: plain cached ones
+  bool short_ = false;   ///< run_blocks() ended before a block that was longer than what was left
+  r3010::Quick quick_;
 };
 
 }  // namespace dendro::r3000
 
 #include "models/parts/r3000/r3000_memory.h"
 #include "models/parts/r3000/r3000_time.h"
+#include "models/parts/r3000/r3000_blocks.h"
+#include "models/parts/r3000/r3000_words.h"
 #include "models/parts/r3000/r3000_run.h"

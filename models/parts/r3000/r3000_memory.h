@@ -133,34 +133,42 @@ bool Core<Port, Timing>::slow_store(std::uint32_t address, unsigned size, std::u
 }
 
 template <class Port, class Timing>
-auto Core<Port, Timing>::fetch_page(std::uint32_t address) -> const CodePage* {
+auto Core<Port, Timing>::fetch_page(std::uint32_t address) -> CodePage* {
+  if (CodePage* const page = known_page(address)) return page;
   std::uint32_t physical = 0;
   if (misaligned(address, 4, Access::kFetch) || !translate(s_, address, Access::kFetch, physical, fault_))
     return nullptr;
-  auto& code = code_[physical & kPageMask];
-  if (!code) {
-    const std::uint8_t* bytes = port_.page(physical);
-    if (bytes == nullptr) {
-      code_.erase(physical & kPageMask);
-      fault_ = {};
-      fault_.code = kIbe;
-      return nullptr;
-    }
-    std::array<std::uint32_t, kPageWords> words;
-    for (unsigned i = 0; i < kPageWords; ++i) words[i] = load32(bytes + 4 * i);
-    code = std::make_unique<CodePage>();
-    decode_page(words.data(), kPageWords, code->words.data());
-    if constexpr (kTimed) {
-      code->issues.resize(kPageWords);
-      for (unsigned i = 0; i < kPageWords; ++i) {
-        const Op op = code->words[i].op;
-        if (op == Op::kFp) code->issues[i] = time_.issue_of(words[i]);
-        if (op == Op::kMtc0 || (op >= Op::kTlbr && op <= Op::kRfe)) code->plain = false;
-      }
-    }
-    forget_maps();  // from here on a store to this page must be noticed
+  const auto found = code_.find(physical & kPageMask);
+  CodePage* const page = found != code_.end() ? found->second.get() : decode_code(physical & kPageMask);
+  if constexpr (!kTimed)
+    if (page != nullptr) fetches_[s_.user()][address >> 12 & (kMappings - 1)] = {address & kPageMask, page->physical, page};
+  return page;
+}
+
+/// Of a physical page; a bus error if it is not memory.
+template <class Port, class Timing>
+auto Core<Port, Timing>::decode_code(std::uint32_t physical) -> CodePage* {
+  const std::uint8_t* const bytes = port_.page(physical);
+  if (bytes == nullptr) {
+    fault_ = {};
+    fault_.code = kIbe;
+    return nullptr;
   }
-  return code.get();
+  std::array<std::uint32_t, kPageWords> words;
+  for (unsigned i = 0; i < kPageWords; ++i) words[i] = load32(bytes + 4 * i);
+  auto code = std::make_unique<CodePage>();
+  code->physical = physical;
+  decode_page(words.data(), kPageWords, code->words.data());
+  if constexpr (kTimed) {
+    code->issues.resize(kPageWords);
+    for (unsigned i = 0; i < kPageWords; ++i) {
+      const Op op = code->words[i].op;
+      if (op == Op::kFp) code->issues[i] = time_.issue_of(words[i]);
+      if (op == Op::kMtc0 || (op >= Op::kTlbr && op <= Op::kRfe)) code->plain = false;
+    }
+  }
+  forget_maps();  // from here on a store to this page must be noticed
+  return (code_[physical] = std::move(code)).get();
 }
 
 /// lwl takes the bytes from the address to the end of its word into the top of the register, lwr those from

@@ -43,120 +43,15 @@ void Core<Port, Timing>::run_after_load() {
   const unsigned reg = s_.pending_reg;
   const std::uint32_t value = s_.pending_value;
   s_.pending_reg = 0;
-  const CodePage* page = fetch_page(s_.pc);
+  const CodePage* const page = fetch_page(s_.pc);
   const Decoded d = page ? page->words[s_.pc >> 2 & (kPageWords - 1)] : Decoded();
   refetch_ = true;
   merge_ = (d.op == Op::kLwl || d.op == Op::kLwr) && d.rt == reg;
   merge_value_ = value;
   const std::uint64_t exceptions = s_.exceptions;
-  run_paced(1);
+  run_words(1);
   merge_ = false;
   if (s_.exceptions != exceptions || destination_of(d) != reg || s_.pending_reg == reg) s_.r[reg] = value;
-}
-
-template <class Port, class Timing>
-bool Core<Port, Timing>::coprocessor1() {
-  if (s_.status & kStatusCu1) return true;
-  fault_ = {};
-  fault_.code = kCpu;
-  fault_.coprocessor = 1;
-  return false;
-}
-
-template <class Port, class Timing>
-void Core<Port, Timing>::fpu_line() {
-  const unsigned line = 1u << spec_.fpu_interrupt;
-  s_.lines = static_cast<std::uint8_t>(s_.fpu.interrupting() ? s_.lines | line : s_.lines & ~line);
-}
-
-/// False: the R3010 interrupts this word.
-template <class Port, class Timing>
-bool Core<Port, Timing>::control_to_fpu(std::uint32_t value) {
-  s_.fpu.control = value & r3010::kControlWritable;
-  fpu_line();
-  fault_ = {};
-  return !s_.fpu.interrupting() || !interrupt_due(s_);
-}
-
-template <class Port, class Timing>
-bool Core<Port, Timing>::execute_fp(const Decoded& d) {
-  const r3010::Outcome outcome = r3010::execute(s_.fpu, d.imm);
-  if (outcome == r3010::Outcome::kDone) return true;
-  fault_ = {};
-  fpu_line();
-  return !interrupt_due(s_);
-}
-
-template <class Port, class Timing>
-void Core<Port, Timing>::multiply_divide(const Decoded& d) {
-  const std::uint32_t a = s_.r[d.rs], b = s_.r[d.rt];
-  if (d.op == Op::kMult || d.op == Op::kMultu) {
-    const std::uint64_t product =
-        d.op == Op::kMultu ? std::uint64_t{a} * b
-                           : static_cast<std::uint64_t>(std::int64_t{static_cast<std::int32_t>(a)} *
-                                                        static_cast<std::int32_t>(b));
-    s_.hi = static_cast<std::uint32_t>(product >> 32);
-    s_.lo = static_cast<std::uint32_t>(product);
-    return;
-  }
-  if (b == 0) {  // no exception; what the restoring divider leaves. ASSUMED DEV-114
-    s_.lo = d.op == Op::kDiv && static_cast<std::int32_t>(a) < 0 ? 1 : 0xFFFFFFFF;
-    s_.hi = a;
-  } else if (d.op == Op::kDivu) {
-    s_.lo = a / b;
-    s_.hi = a % b;
-  } else if (a == 0x80000000 && b == 0xFFFFFFFF) {
-    s_.lo = a;
-    s_.hi = 0;
-  } else {
-    s_.lo = static_cast<std::uint32_t>(static_cast<std::int32_t>(a) / static_cast<std::int32_t>(b));
-    s_.hi = static_cast<std::uint32_t>(static_cast<std::int32_t>(a) % static_cast<std::int32_t>(b));
-  }
-}
-
-/// mtc0 and the operations of coprocessor 0.
-template <class Port, class Timing>
-bool Core<Port, Timing>::execute_cp0(const Decoded& d) {
-  if (s_.user() && !(s_.status & kStatusCu0)) {
-    fault_ = {};
-    fault_.code = kCpu;
-    return false;
-  }
-  const auto drop = [this](std::uint32_t hi) {
-    for (Maps& maps : maps_)
-      maps.read[hi >> 12 & (kMappings - 1)] = maps.write[hi >> 12 & (kMappings - 1)] = Mapping();
-    if constexpr (kTimed)
-      for (auto& fetches : fetches_) fetches[hi >> 12 & (kMappings - 1)] = FetchMapping();
-  };
-  switch (d.op) {
-    case Op::kMtc0: {
-      const std::uint32_t status = s_.status, hi = s_.entry_hi;
-      write_cp0(s_, d.rd, s_.r[d.rt]);
-      if (((s_.status ^ status) & kStatusIsc) || ((s_.entry_hi ^ hi) & kHiAsid)) forget_maps();
-      break;
-    }
-    case Op::kTlbwi:
-    case Op::kTlbwr: {
-      const unsigned index = d.op == Op::kTlbwi ? s_.index >> 8 & 63 : random_of(s_);
-      drop(s_.tlb[index].hi);
-      tlb_write(s_, index);
-      drop(s_.tlb[index].hi);
-      break;
-    }
-    case Op::kTlbr:
-      tlb_read(s_);
-      break;
-    case Op::kTlbp:
-      tlb_probe(s_);
-      break;
-    default:
-      return_from_exception(s_);
-      break;
-  }
-  if (d.op == Op::kTlbr) forget_maps();  // it may bring another address space
-  refetch_ = true;
-  leave_ = d.op == Op::kMtc0 || d.op == Op::kRfe;
-  return true;
 }
 
 /// Where nothing reads a load's register in its slot. Ends early after a word that run() must look behind.
@@ -178,7 +73,6 @@ std::uint64_t Core<Port, Timing>::run_plain(std::uint64_t budget) {
   const std::uint64_t base = s_.instructions;
   leave_ = false;
   refetch_ = true;
-  const auto s32 = [](std::uint32_t value) { return static_cast<std::int32_t>(value); };
   while (left != 0 && !leave_) {
     if (__builtin_expect(((pc ^ page_address) & (kPageMask | 3)) != 0 || refetch_, 0)) {
       refetch_ = false;
@@ -207,24 +101,12 @@ std::uint64_t Core<Port, Timing>::run_plain(std::uint64_t budget) {
         case Op::kNop:
           if constexpr (kTimed) time_.count_nop(d.imm);
           goto plain;
-        case Op::kSll:
-          r[d.rd] = r[d.rt] << d.imm;
-          goto plain;
-        case Op::kSrl:
-          r[d.rd] = r[d.rt] >> d.imm;
-          goto plain;
-        case Op::kSra:
-          r[d.rd] = static_cast<std::uint32_t>(s32(r[d.rt]) >> d.imm);
-          goto plain;
-        case Op::kSllv:
-          r[d.rd] = r[d.rt] << (r[d.rs] & 31);
-          goto plain;
-        case Op::kSrlv:
-          r[d.rd] = r[d.rt] >> (r[d.rs] & 31);
-          goto plain;
-        case Op::kSrav:
-          r[d.rd] = static_cast<std::uint32_t>(s32(r[d.rt]) >> (r[d.rs] & 31));
-          goto plain;
+#define DENDRO_CASE(name, destination, value) \
+  case Op::k##name:                           \
+    r[d.destination] = value;                 \
+    goto plain;
+        DENDRO_R3000_ALU(DENDRO_CASE)
+#undef DENDRO_CASE
         case Op::kAdd: {
           const std::uint32_t sum = r[d.rs] + r[d.rt];
           good = s32((r[d.rs] ^ sum) & (r[d.rt] ^ sum)) >= 0;
@@ -234,9 +116,6 @@ std::uint64_t Core<Port, Timing>::run_plain(std::uint64_t budget) {
             fault_ = {}, fault_.code = kOv;
           break;
         }
-        case Op::kAddu:
-          r[d.rd] = r[d.rs] + r[d.rt];
-          goto plain;
         case Op::kSub: {
           const std::uint32_t difference = r[d.rs] - r[d.rt];
           good = s32((r[d.rs] ^ r[d.rt]) & (r[d.rs] ^ difference)) >= 0;
@@ -246,27 +125,6 @@ std::uint64_t Core<Port, Timing>::run_plain(std::uint64_t budget) {
             fault_ = {}, fault_.code = kOv;
           break;
         }
-        case Op::kSubu:
-          r[d.rd] = r[d.rs] - r[d.rt];
-          goto plain;
-        case Op::kAnd:
-          r[d.rd] = r[d.rs] & r[d.rt];
-          goto plain;
-        case Op::kOr:
-          r[d.rd] = r[d.rs] | r[d.rt];
-          goto plain;
-        case Op::kXor:
-          r[d.rd] = r[d.rs] ^ r[d.rt];
-          goto plain;
-        case Op::kNor:
-          r[d.rd] = ~(r[d.rs] | r[d.rt]);
-          goto plain;
-        case Op::kSlt:
-          r[d.rd] = s32(r[d.rs]) < s32(r[d.rt]);
-          goto plain;
-        case Op::kSltu:
-          r[d.rd] = r[d.rs] < r[d.rt];
-          goto plain;
         case Op::kAddi: {
           const std::uint32_t sum = r[d.rs] + d.imm;
           good = s32((r[d.rs] ^ sum) & (d.imm ^ sum)) >= 0;
@@ -276,32 +134,11 @@ std::uint64_t Core<Port, Timing>::run_plain(std::uint64_t budget) {
             fault_ = {}, fault_.code = kOv;
           break;
         }
-        case Op::kAddiu:
-          r[d.rt] = r[d.rs] + d.imm;
-          goto plain;
-        case Op::kSlti:
-          r[d.rt] = s32(r[d.rs]) < s32(d.imm);
-          goto plain;
-        case Op::kSltiu:
-          r[d.rt] = r[d.rs] < d.imm;
-          goto plain;
-        case Op::kAndi:
-          r[d.rt] = r[d.rs] & d.imm;
-          goto plain;
-        case Op::kOri:
-          r[d.rt] = r[d.rs] | d.imm;
-          goto plain;
-        case Op::kXori:
-          r[d.rt] = r[d.rs] ^ d.imm;
-          goto plain;
-        case Op::kLui:
-          r[d.rt] = d.imm;
-          goto plain;
         case Op::kMult:
         case Op::kMultu:
         case Op::kDiv:
         case Op::kDivu:
-          multiply_divide(d);
+          multiply_divide(d.op, r[d.rs], r[d.rt]);
           wait([&](auto& time, std::uint64_t now) { return time.multiply_divide(now, d.op >= Op::kDiv); });
           goto plain;
         case Op::kMfhi:
@@ -338,24 +175,12 @@ std::uint64_t Core<Port, Timing>::run_plain(std::uint64_t budget) {
           branch(false);
           next = r[d.rs];
           goto branched;
-        case Op::kBeq:
-          branch(r[d.rs] == r[d.rt]);
-          goto branched;
-        case Op::kBne:
-          branch(r[d.rs] != r[d.rt]);
-          goto branched;
-        case Op::kBlez:
-          branch(s32(r[d.rs]) <= 0);
-          goto branched;
-        case Op::kBgtz:
-          branch(s32(r[d.rs]) > 0);
-          goto branched;
-        case Op::kBltz:
-          branch(s32(r[d.rs]) < 0);
-          goto branched;
-        case Op::kBgez:
-          branch(s32(r[d.rs]) >= 0);
-          goto branched;
+#define DENDRO_CASE(name, condition) \
+  case Op::k##name:                  \
+    branch(condition);               \
+    goto branched;
+        DENDRO_R3000_BRANCHES(DENDRO_CASE)
+#undef DENDRO_CASE
         case Op::kBltzal:
         case Op::kBgezal: {
           const bool taken = (s32(r[d.rs]) < 0) == (d.op == Op::kBltzal);

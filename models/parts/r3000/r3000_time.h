@@ -43,7 +43,8 @@ std::uint64_t Core<Port, Timing>::fetch_at(std::uint32_t address, std::uint64_t 
     return time_.fetch_uncached(physical, now);
   const auto code = code_.find(physical & kPageMask);
   if (code != code_.end() && code->second->plain)
-    fetches_[s_.user()][address >> 12 & (kMappings - 1)] = {address & kPageMask, physical & kPageMask};
+    fetches_[s_.user()][address >> 12 & (kMappings - 1)] =
+        {address & kPageMask, physical & kPageMask, code->second.get()};
   return time_.fetch(physical, now, warm_);
 }
 
@@ -131,15 +132,20 @@ void Core<Port, Timing>::settle() {
   time_.finish();
 }
 
+/// From here on in a hurry, if nothing speaks against it.
 template <class Port, class Timing>
-std::uint64_t Core<Port, Timing>::run_paced(std::uint64_t budget) {
+void Core<Port, Timing>::hurry() {
+  if (!careful_ || !may_hurry()) return;
+  careful_ = false;
+  time_.hurry();
+}
+
+template <class Port, class Timing>
+std::uint64_t Core<Port, Timing>::run_words(std::uint64_t budget) {
   if constexpr (!kTimed) {
     return run_plain<Pace::kFunction>(budget);
   } else {
-    if (careful_ && may_hurry()) {
-      careful_ = false;
-      time_.hurry();
-    }
+    hurry();
     time_.bias += budget;
     const std::uint64_t left = careful_ ? run_plain<Pace::kCareful>(budget)
                                : warm_  ? run_plain<Pace::kWarm>(budget)
@@ -147,6 +153,24 @@ std::uint64_t Core<Port, Timing>::run_paced(std::uint64_t budget) {
     time_.bias -= left;
     return left;
   }
+}
+
+/// Where no load is under way: blocks, and word by word what they leave.
+template <class Port, class Timing>
+std::uint64_t Core<Port, Timing>::run_paced(std::uint64_t budget) {
+  if constexpr (kTimed) {
+    hurry();
+    if (careful_) return run_words(budget);
+  }
+  if (!s_.in_slot && s_.next_pc == s_.pc + 4) {
+    if constexpr (!kTimed)
+      budget = run_blocks<Pace::kFunction>(budget);
+    else
+      budget = warm_ ? run_blocks<Pace::kWarm>(budget) : run_blocks<Pace::kFast>(budget);
+    if (budget == 0) return 0;
+    if (short_) return run_words(budget);
+  }
+  return budget - 1 + run_words(1);
 }
 
 }  // namespace dendro::r3000

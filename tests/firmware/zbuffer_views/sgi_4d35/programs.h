@@ -3,7 +3,7 @@
 #include <fstream>
 
 #include "tests/firmware/mips/shell.h"
-#include "tests/firmware/zbuffer_views/sgi_4d35/files.h"
+#include "firmware/zbuffer_views/stability/program_files.h"
 
 namespace dendro::zbuffer_views {
 

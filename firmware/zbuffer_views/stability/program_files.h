@@ -7,7 +7,7 @@
 
 #include "firmware/zbuffer_views/sgi_4d35/format.h"
 
-/// The files of the programs, made and read by hand.
+/// The files of the programs, made and read by hand, apart from what the host does for its runs.
 namespace dendro::zbuffer_views {
 
 using Vertex = std::array<float, 3>;

@@ -2,7 +2,7 @@
 
 #include <mpfr.h>
 
-namespace dendro::half_space {
+namespace dendro::stability {
 
 /// A real number of 128 bits, every operation rounded to nearest.
 class BigReal {
@@ -32,6 +32,14 @@ class BigReal {
   friend BigReal log(const BigReal& a) { return of(mpfr_log, a); }
   friend BigReal cos(const BigReal& a) { return of(mpfr_cos, a); }
   friend BigReal sin(const BigReal& a) { return of(mpfr_sin, a); }
+  friend BigReal asin(const BigReal& a) { return of(mpfr_asin, a); }
+  friend BigReal acos(const BigReal& a) { return of(mpfr_acos, a); }
+  friend BigReal atan2(const BigReal& y, const BigReal& x) { return of(mpfr_atan2, y, x); }
+  friend BigReal floor(const BigReal& a) {
+    BigReal result;
+    mpfr_floor(result.value_, a.value_);
+    return result;
+  }
   friend BigReal abs(const BigReal& a) { return of(mpfr_abs, a); }
   static BigReal pi() {
     BigReal result;
@@ -58,4 +66,4 @@ class BigReal {
   mpfr_t value_;
 };
 
-}  // namespace dendro::half_space
+}  // namespace dendro::stability

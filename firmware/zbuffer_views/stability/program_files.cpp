@@ -1,4 +1,4 @@
-#include "tests/firmware/zbuffer_views/sgi_4d35/files.h"
+#include "firmware/zbuffer_views/stability/program_files.h"
 
 #include <cmath>
 #include <cstring>
