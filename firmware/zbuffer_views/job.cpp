@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <optional>
 
 #include "firmware/zbuffer_views/host/files.h"
@@ -33,7 +34,9 @@ class ViewsJob : public ProgramJob {
     tree_ = tree_file(prepared_.tree);
     digest_ = digest_of(tree_);
     if (settings_.views_file.empty()) return;
-    if (!saved_views_.read_from(settings_.views_file)) throw UserError(settings_.views_file, 0, "", "cannot be read");
+    const bool folder = std::filesystem::is_directory(settings_.views_file);
+    if (folder || !saved_views_.read_from(settings_.views_file))
+      throw UserError(settings_.views_file, 0, "", folder ? "cannot be read: it is a folder" : "cannot be read");
     check_views(saved_views_, prepared_, digest_, settings_.views_file);
   }
 

@@ -112,8 +112,12 @@ void RunFolder::commit() {
   if (!fs::exists(path_)) {
     rename_over(work_, path_);
   } else {
-    for (const auto& entry : fs::directory_iterator(work_))
-      rename_over(entry.path(), fs::path(path_) / entry.path().filename());
+    for (const auto& entry : fs::directory_iterator(work_)) {
+      const fs::path to = fs::path(path_) / entry.path().filename();
+      std::error_code ignored;
+      if (entry.is_directory()) fs::remove_all(to, ignored);  // a folder does not go over one that holds something
+      rename_over(entry.path(), to);
+    }
     fs::remove(work_);
   }
   committed_ = true;

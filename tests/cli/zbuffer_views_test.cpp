@@ -205,6 +205,9 @@ TEST_F(ZbufferViews, ASequenceIsNumberedPicturesAndAnAnimation) {
   EXPECT_NE(read("o/frames/0000.png"), read("o/frames/0001.png"));
   EXPECT_EQ("GIF89a", read("o/animation.gif").substr(0, 6));
   EXPECT_EQ(3, object["facts"]["frames"]);
+  run("s.toml --set zbuffer_views.frames=2 --out o");
+  const auto now = this->names();
+  EXPECT_EQ(2, std::count_if(now.begin(), now.end(), [](const std::string& name) { return name.compare(0, 9, "o/frames/") == 0; }));
 }
 
 }  // namespace

@@ -126,7 +126,7 @@ TEST(MipsPrograms, CommandsThatCannotDriveTheMachineSaySo) {
   for (const std::string& command :
        {dendro + " run icosahedron --machine sgi-4d35", dendro + " levels icosahedron --machine sgi-4d35",
         model(elf("hello"), "", "--dump 0"),
-        dendro + " record --exec sgi-4d35 " + elf("hello") + " --boundary sgi_4d35.memory --out " +
+        dendro + " record --exec sgi-4d35 " + elf("hello") + " --boundary sgi_4d35.display --out " +
             scratch() + "/t"}) {
     const Ran ran = run(command + " </dev/null");
     EXPECT_EQ(2, ran.status) << command << ran.errors;
