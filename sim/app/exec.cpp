@@ -116,7 +116,7 @@ void add_exec(CLI::App& app, const study::Catalogue& catalogue, Action& action) 
       ->check(CLI::IsMember({"auto", "on", "off"}));
   command->add_flag("--profile", o->exec.profile, "ELF files, level cycle: cycles by function");
   command->add_option("--gdb", o->exec.gdb_port,
-                      "ELF files, not at clocked: port of 127.0.0.1 to wait on for gdb-multiarch; 0: a free one")
+                      "ELF files: port of 127.0.0.1 to wait on for gdb-multiarch; 0: a free one")
       ->check(whole_number(0, 65535));
   command->add_flag("--quiet", o->quiet, "print no summary");
   add_waveform(*command, machine);

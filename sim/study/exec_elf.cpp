@@ -178,9 +178,6 @@ ExecOutput exec_elf(const Catalogue& catalogue, const ExecArguments& arguments) 
     throw UserError("--profile", 0, "", "profiles exist at --level cycle only");
   if (!arguments.options.pipeline_file.empty() && level != Level::kClocked)
     throw UserError("--pipeline", 0, "", "pipeline logs exist at --level clocked only");
-  if (arguments.gdb_port && level == Level::kClocked)
-    throw UserError("--gdb", 0, "",
-                    "at --level clocked several words are under way at any time; --level cycle stops between them");
   const ElfProgram program = read_elf(config::read_text({false, arguments.program}, {}), arguments.program);
   const std::uint32_t main_bytes = main_bytes_of(preset.parameters);
   const ProgramImage image = place_program(program, arguments, main_bytes);

@@ -9,6 +9,7 @@
 #include <thread>
 
 #include "models/machines/debuggee.h"
+#include "models/machines/sgi_4d35/clocked.h"
 #include "models/machines/sgi_4d35/cycle.h"
 #include "models/machines/sgi_4d35/function.h"
 #include "sim/base/error.h"
@@ -59,7 +60,11 @@ std::map<std::string, std::uint64_t> counters_of(const ProgramResult& result) {
   return counters;
 }
 
-TEST(GdbProgram, StopsAndLooksChangeNoClockNoCounterAndNoRegister) {
+class GdbTimed : public testing::TestWithParam<Level> {};
+INSTANTIATE_TEST_SUITE_P(Levels, GdbTimed, testing::Values(Level::kCycle, Level::kClocked),
+                         [](const auto& instance) { return std::string(level_name(instance.param)); });
+
+TEST_P(GdbTimed, StopsAndLooksChangeNoClockNoCounterAndNoRegister) {
   unsigned stops = 0;
   for (std::uint32_t seed = 1; seed <= 40; ++seed) {
     const Spec spec = random_spec(seed);
@@ -70,7 +75,7 @@ TEST(GdbProgram, StopsAndLooksChangeNoClockNoCounterAndNoRegister) {
       RunOptions options;
       options.final_state = &state;
       options.machine.debugger = debugger;
-      return run_cycle(spec, image, calls, 20000, options);
+      return (GetParam() == Level::kCycle ? run_cycle : run_clocked)(spec, image, calls, 20000, options);
     };
     r3000::State plain, stopped;
     const ProgramResult expected = run(nullptr, plain);
@@ -86,6 +91,43 @@ TEST(GdbProgram, StopsAndLooksChangeNoClockNoCounterAndNoRegister) {
     EXPECT_EQ(plain.cause, stopped.cause) << "seed " << seed;
   }
   EXPECT_GT(stops, 10000u);
+}
+
+/// What GDB would see before every word.
+class Reader : public Debugger {
+ public:
+  bool debug(Debuggee& program) override {
+    for (Debuggee::Stop stop; !stop.ended; stop = program.step()) seen.push_back(program.registers());
+    return true;
+  }
+  std::vector<std::vector<std::uint32_t>> seen;
+};
+
+TEST(GdbProgram, RegistersBeforeEveryWordAreTheSameAtEveryLevel) {
+  std::size_t words = 0;
+  for (std::uint32_t seed = 1; seed <= 30; ++seed) {
+    const Spec spec = random_spec(seed);
+    ProgramImage image = image_of(random_program(seed, 200, 3), kCode + 0x800);
+    image.program.entry = image.start;
+    Calls calls;
+    Reader function, cycle, clocked;
+    MachineOptions options;
+    options.debugger = &function;
+    run_function(spec, image, calls, 3000, options);
+    RunOptions timed;
+    timed.machine.debugger = &cycle;
+    run_cycle(spec, image, calls, 3000, timed);
+    timed.machine.debugger = &clocked;
+    run_clocked(spec, image, calls, 3000, timed);
+    ASSERT_EQ(function.seen.size(), clocked.seen.size()) << "seed " << seed;
+    ASSERT_EQ(function.seen.size(), cycle.seen.size()) << "seed " << seed;
+    for (std::size_t word = 0; word < function.seen.size(); ++word) {
+      ASSERT_EQ(function.seen[word], cycle.seen[word]) << "seed " << seed << " word " << word;
+      ASSERT_EQ(function.seen[word], clocked.seen[word]) << "seed " << seed << " word " << word;
+    }
+    words += function.seen.size();
+  }
+  EXPECT_GT(words, 10000u);
 }
 
 /// GDB's side of a connection.
@@ -135,8 +177,9 @@ ProgramResult run_at(Level level, const ProgramImage& image, Debugger* debugger,
   Calls calls;
   RunOptions options;
   options.machine.debugger = debugger;
-  return level == Level::kCycle ? run_cycle(small(), image, calls, limit, options)
-                                : run_function(small(), image, calls, limit, options.machine);
+  return level == Level::kClocked ? run_clocked(small(), image, calls, limit, options)
+         : level == Level::kCycle ? run_cycle(small(), image, calls, limit, options)
+                                  : run_function(small(), image, calls, limit, options.machine);
 }
 
 TEST(GdbProgram, ASocketDrivesItFromTheFirstWordToTheEnd) {
@@ -211,6 +254,26 @@ TEST(GdbProgram, AfterADetachItRunsAsIfNobodyHadLooked) {
   EXPECT_TRUE(result.stopped);
   EXPECT_EQ(plain.cycles, result.cycles);
   EXPECT_EQ(plain.instructions, result.instructions);
+}
+
+TEST(GdbProgram, AtClockedOneLooksAndStepsButWritesNothing) {
+  study::GdbSocket gdb(0, [] { return std::optional<int>(3); });
+  std::thread client([port = gdb.port()] {
+    Client c(port);
+    EXPECT_EQ("OK", c.ask("Z0,80010004,4"));
+    EXPECT_EQ("S05", c.ask("c"));
+    EXPECT_EQ("00000005", c.ask("p8"));
+    EXPECT_EQ('E', c.ask("P8=1").at(0));
+    EXPECT_EQ('E', c.ask("M80010000,4:34080002").at(0));
+    EXPECT_EQ("S05", c.ask("s"));
+    EXPECT_EQ("00000004", c.ask("p8"));
+    EXPECT_EQ("80010008", c.ask("p25"));
+    EXPECT_EQ("OK", c.ask("z0,80010004,4"));
+    EXPECT_EQ("W03", c.ask("c"));
+  });
+  const ProgramResult result = run_at(Level::kClocked, countdown(5), &gdb, 1000);
+  client.join();
+  EXPECT_EQ(run_at(Level::kCycle, countdown(5), nullptr, 1000).cycles, result.cycles);
 }
 
 TEST(GdbProgram, APortInUseIsTheUsersError) {

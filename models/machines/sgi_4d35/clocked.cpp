@@ -1,5 +1,6 @@
 #include "models/machines/sgi_4d35/clocked.h"
 
+#include <algorithm>
 #include <exception>
 #include <memory>
 #include <systemc>
@@ -8,6 +9,7 @@
 #include "models/machines/sgi_4d35/clocked_log.h"
 #include "models/machines/sgi_4d35/clocked_pipeline.h"
 #include "models/machines/sgi_4d35/clocked_vcd.h"
+#include "models/machines/sgi_4d35/debug.h"
 #include "models/machines/sgi_4d35/marks.h"
 
 namespace dendro::sgi_4d35 {
@@ -24,24 +26,33 @@ class ClockedEngine : public sc_core::sc_module {
     return engine;
   }
 
-  /// Until the pipeline stops. Keeps marks; throws what a service, the waveform or the log throws.
-  std::vector<ProgramMark> run(ClockedPipeline& pipeline, MarkedServices& services, double clock_hz,
-                               const MachineOptions& options) {
+  void begin(ClockedPipeline& pipeline, MarkedServices& services, double clock_hz, const MachineOptions& options) {
     pipeline_ = &pipeline;
     services_ = &services;
     options_ = &options;
     period_ = sc_core::sc_time::from_value(static_cast<sc_dt::uint64>(clock_ps(clock_hz, 1)));
     marks_.clear();
-    given_up_ = nullptr;
     if (!options.vcd_file.empty()) vcd_ = std::make_unique<ClockedVcd>(pipeline, options, clock_hz);
     if (!options.pipeline_file.empty()) log_ = std::make_unique<ClockedLog>(pipeline, options);
-    begin_.notify(sc_core::SC_ZERO_TIME);
+  }
+
+  /// Until the pipeline has had so many words in all, or stops. Throws what a service, the waveform or the log throws.
+  void advance(std::uint64_t words) {
+    if (pipeline_->stopped() || pipeline_->words() >= words) return;
+    words_ = words;
+    go_on_.notify(sc_core::SC_ZERO_TIME);
     sc_core::sc_start();
+    if (!given_up_) return;
+    end();
+    std::rethrow_exception(std::exchange(given_up_, nullptr));
+  }
+
+  /// Closes the files; returns the marks.
+  std::vector<ProgramMark> end() {
     if (vcd_) vcd_->close();
     if (log_) log_->close();
     vcd_.reset();
     log_.reset();
-    if (given_up_) std::rethrow_exception(given_up_);
     return std::move(marks_);
   }
 
@@ -49,7 +60,7 @@ class ClockedEngine : public sc_core::sc_module {
   ClockedEngine(sc_core::sc_module_name name, bool) : sc_module(name) {
     SC_HAS_PROCESS(ClockedEngine);
     SC_METHOD(on_clock);
-    sensitive << begin_;
+    sensitive << go_on_;
     dont_initialize();
   }
 
@@ -57,7 +68,7 @@ class ClockedEngine : public sc_core::sc_module {
   void on_clock() {
     try {
       clock();
-      if (!pipeline_->stopped()) next_trigger(period_);
+      if (!pipeline_->stopped() && pipeline_->words() < words_) next_trigger(period_);
     } catch (...) {
       given_up_ = std::current_exception();
     }
@@ -78,7 +89,8 @@ class ClockedEngine : public sc_core::sc_module {
     if (n % kProgressClocks == 0 && options_->progress) options_->progress(static_cast<std::int64_t>(n));
   }
 
-  sc_core::sc_event begin_;
+  sc_core::sc_event go_on_;
+  std::uint64_t words_ = 0;
   sc_core::sc_time period_;
   ClockedPipeline* pipeline_ = nullptr;
   MarkedServices* services_ = nullptr;
@@ -89,6 +101,21 @@ class ClockedEngine : public sc_core::sc_module {
   std::exception_ptr given_up_;
 };
 
+/// Lets a debugger, if there is one, look on. False: it gives the program up.
+bool drive(Debugger* debugger, ClockedEngine& engine, ClockedPipeline& pipeline, Board& board, std::uint64_t limit) {
+  if (debugger == nullptr) return true;
+  r3000::State state = pipeline.state();
+  pipeline.show(&state);
+  const auto run = [&](std::uint64_t words) {
+    const std::uint64_t before = pipeline.words();
+    engine.advance(before + words);
+    return words - std::min(words, pipeline.words() - before);
+  };
+  const bool goes_on = debugged(debugger, {state, run, nullptr, nullptr}, board, limit) != 0;
+  pipeline.show(nullptr);
+  return goes_on;
+}
+
 }  // namespace
 
 ProgramResult run_clocked(const Spec& spec, const ProgramImage& image, service_block::Services& services,
@@ -97,8 +124,10 @@ ProgramResult run_clocked(const Spec& spec, const ProgramImage& image, service_b
   Board board(spec.main_bytes, image, marked);
   ClockedPipeline pipeline(spec, board, image.start, limit);
   pipeline.keep(options.retired);
-  std::vector<ProgramMark> marks;
-  if (!pipeline.stopped()) marks = ClockedEngine::of_process().run(pipeline, marked, spec.clock_hz, options.machine);
+  ClockedEngine& engine = ClockedEngine::of_process();
+  engine.begin(pipeline, marked, spec.clock_hz, options.machine);
+  if (drive(options.machine.debugger, engine, pipeline, board, limit)) engine.advance(UINT64_MAX);
+  std::vector<ProgramMark> marks = engine.end();
   const r3000::State& state = pipeline.state();
   if (options.final_state != nullptr) *options.final_state = state;
   ProgramResult result = result_of(state, board, spec);

@@ -60,6 +60,7 @@ ClockedCause ClockedPipeline::run() {
   if (wb_->live && wb_->destination != 0) state_.r[wb_->destination] = wb_->result;
   const ClockedCause cause = leave_mem();
   if (stopping_) return cause;
+  if (shown_ != nullptr) *shown_ = behind_last_word();
   leave_alu();
   if (rd_->live) {
     rd_->a = operand(rd_->d.rs);
@@ -145,14 +146,21 @@ void ClockedPipeline::log(const ClockedSlot& slot, bool killed) {
   if (retired_ != nullptr) retired_->push_back({clock_, slot.pc, killed});
 }
 
-/// Leaves the state as it is behind the last word: the words behind it have done nothing yet.
+/// The state behind the word in MEM: those behind it have done nothing yet.
+r3000::State ClockedPipeline::behind_last_word() const {
+  r3000::State s = state_;
+  if (mem_->live && mem_->destination != 0) s.r[mem_->destination] = mem_->result;
+  if (mem_->killed) return s;  // the exception has set the program counter
+  s.pc = alu_->pc;
+  s.next_pc = rd_->pc;
+  s.in_slot = behind_branch_;
+  return s;
+}
+
 void ClockedPipeline::finish() {
   stopped_ = true;
-  if (mem_->live && mem_->destination != 0) state_.r[mem_->destination] = mem_->result;
-  if (mem_->killed) return;  // the exception has set the program counter
-  state_.pc = alu_->pc;
-  state_.next_pc = rd_->pc;
-  state_.in_slot = behind_branch_;
+  state_ = behind_last_word();
+  if (shown_ != nullptr) *shown_ = state_;
 }
 
 Counters ClockedPipeline::counters() const {

@@ -79,6 +79,9 @@ class ClockedPipeline {
   Counters counters() const;
   const r3000::State& state() const { return state_; }
   void keep(std::vector<Retired>* retired) { retired_ = retired; }
+  std::uint64_t words() const { return counted_; }  ///< completed or faulted
+  /// From here on `state` is that behind the word that left MEM last.
+  void show(r3000::State* state) { shown_ = state; }
 
   // For waveform and log, between look() and move().
   ClockedCause cause() const { return cause_; }
@@ -105,6 +108,7 @@ class ClockedPipeline {
   void rotate();
   void count(ClockedCause cause);
   void log(const ClockedSlot& slot, bool killed);
+  r3000::State behind_last_word() const;
   void finish();
 
   // clocked_fetch.cpp
@@ -158,6 +162,7 @@ class ClockedPipeline {
   std::uint64_t refill_from_ = 0;
   Counters counters_;
   std::vector<Retired>* retired_ = nullptr;
+  r3000::State* shown_ = nullptr;
 };
 
 /// The word's work changes what fetches behind it see: coprocessor 0's.

@@ -108,7 +108,7 @@ r3000::State ElfDebuggee::state_at_fault() const {
 
 bool ElfDebuggee::set_register(std::size_t number, std::uint32_t value) {
   r3000::State& s = core_.state;
-  if (faulted_ || board_.stopped()) return false;
+  if (faulted_ || board_.stopped() || !core_.forget_code) return false;
   if (number < 32) {
     if (number == s.pending_reg) s.pending_reg = 0;
     if (number != 0) s.r[number] = value;
@@ -156,6 +156,7 @@ std::size_t ElfDebuggee::read(std::uint32_t address, std::uint8_t* to, std::size
 }
 
 std::size_t ElfDebuggee::write(std::uint32_t address, const std::uint8_t* from, std::size_t bytes) {
+  if (!core_.forget_code) return 0;
   std::uint32_t physical = 0;
   std::size_t i = 0;
   for (; i < bytes; ++i, ++address, ++physical) {

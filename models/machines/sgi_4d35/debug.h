@@ -8,15 +8,16 @@
 
 namespace dendro::sgi_4d35 {
 
-/// A core that executes word by word, for a debugger. At `cycle` the clocks are those of a run without one, unless
-/// the debugger writes.
+/// A core that executes word by word, for a debugger. At `cycle` and `clocked` the clocks are those of a run without one,
+/// unless the debugger writes; at `clocked`, where the next words are under way, it cannot.
 class ElfDebuggee : public Debuggee {
  public:
   struct Core {
     r3000::State& state;
     /// Executes up to so many words and returns how many are left, more than 0 also behind one that reached a device.
     std::function<std::uint64_t(std::uint64_t)> run;
-    std::function<void(std::uint32_t physical)> forget_code;  ///< memory there has changed
+    /// Memory there has changed. Empty: nothing can be written.
+    std::function<void(std::uint32_t physical)> forget_code;
     std::function<void(std::uint32_t address)> jump;
   };
 

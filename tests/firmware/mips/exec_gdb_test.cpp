@@ -86,7 +86,6 @@ TEST(MipsGdb, BadPortsAndLevelsAreOneLine) {
         {"65536", "`65536` is not an integer"},
         {"''", "`` is not an integer"},
         {"x", "`x` is not an integer"},
-        {"0 --level clocked", "--gdb: at --level clocked several words are under way"},
         {port, "--gdb: port " + port + " of 127.0.0.1: Address already in use"}}) {
     const Ran ran = run(debugged("hello", "", options));
     EXPECT_EQ(2, ran.status) << options;
@@ -98,7 +97,7 @@ TEST(MipsGdb, BadPortsAndLevelsAreOneLine) {
 
 TEST(MipsGdb, AClientThatGoesAwayLeavesTheProgramToItself) {
   for (const auto& [level, text] :
-       {std::pair<std::string, std::string>{"cycle", ""}, {"function", "no packet at all"}, {"estimate", "$vCont;s#b8"},
+       {std::pair<std::string, std::string>{"cycle", ""}, {"function", "no packet at all"}, {"estimate", "$vCont;s#b8"}, {"clocked", "$vCont;s#b8"},
         {"function", "$?#3f+$g#67+$Z0,400020,4#"}}) {
     Started program(debugged("hello", "one", "0 --level " + level));
     const int client = socket_at(port_of(program.line_of_errors()), true);
