@@ -10,6 +10,7 @@ foreach(tool MIPS_GCC:gcc-mips-linux-gnu MIPS_OBJCOPY:binutils-mips-linux-gnu QE
     message(FATAL_ERROR "The firmware of sgi-4d35 needs the Debian package ${package}; ./dev build installs it.")
   endif()
 endforeach()
+execute_process(COMMAND ${MIPS_GCC} -dumpfullversion OUTPUT_VARIABLE MIPS_GCC_VERSION OUTPUT_STRIP_TRAILING_WHITESPACE COMMAND_ERROR_IS_FATAL ANY)
 
 set(MIPS_FLAGS -march=r3000 -mabi=32 -mfp32 -mno-abicalls -fno-pic -fno-pie -G0 -ffreestanding -fno-stack-protector
   -fno-tree-loop-distribute-patterns -ffp-contract=off -fno-asynchronous-unwind-tables -Wall -Wextra -Wno-missing-field-initializers)
