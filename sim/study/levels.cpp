@@ -21,19 +21,12 @@ struct Made {
   std::optional<RunOutput> output;
 };
 
-/// What the host took for what has ticks, without programs that run untimed.
-double timed_seconds(const RunOutput& run) {
-  const stats::RunObject& object = run.object;
-  const double ticks = object.cycles > 0 ? static_cast<double>(object.machine_cycles) : static_cast<double>(object.instructions);
-  return object.host.simulated_hz > 0 ? ticks / object.host.simulated_hz : object.host.seconds;
-}
-
 /// Host time of a level is told from the level before it: function words to cycle ticks, cycle ticks to
 /// clocked ones. The factors are about twice what scenes take, so that a budget is kept rather than used up.
 double predicted_seconds(Level level, const std::optional<RunOutput>& before) {
   if (!before) return 0;
   const double factor = level == Level::kClocked ? 50.0 : 4.0;
-  return timed_seconds(*before) * factor;
+  return before->object.host.seconds * factor;
 }
 
 void compare_with(const RunOutput& reference, Made& made) {
@@ -94,7 +87,7 @@ std::vector<LevelRow> compare_levels(const Catalogue& catalogue, const RunArgume
       const auto start = std::chrono::steady_clock::now();
       made.output = execute_in_worker(request, "", progress);
       const double whole = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-      made.row.host_seconds = timed_seconds(*made.output);
+      made.row.host_seconds = made.output->object.host.seconds;
       made.row.cycles = made.output->object.cycles;
       spent += whole;
       beside = std::max(0.0, whole - made.row.host_seconds);
@@ -111,7 +104,7 @@ std::vector<LevelRow> compare_levels(const Catalogue& catalogue, const RunArgume
   for (Made& made : all) {
     if (reference) compare_with(*reference, made);
     if (made.output && clocked && made.row.host_seconds > 0)
-      made.row.speedup_over_clocked = timed_seconds(*clocked) / made.row.host_seconds;
+      made.row.speedup_over_clocked = clocked->object.host.seconds / made.row.host_seconds;
     rows.push_back(made.row);
   }
   return rows;

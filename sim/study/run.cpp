@@ -232,10 +232,8 @@ void add_picture(Picture picture, MachineView view, const PixelCosts& costs, con
 
 /// A run on a machine whose programs are files.
 void run_programs(const RunRequest& request, ProgramJob& job, const std::string& folder, Progress* progress, RunOutput& output) {
-  const auto start = std::chrono::steady_clock::now();
   ElfWorkstation workstation(request, job, request.with_picture ? folder : "", progress);
   job.run_programs(workstation);
-  const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   stats::RunObject& object = output.object;
   object.cycles = object.machine_cycles = workstation.cycles();
   object.clock_hz = workstation.clock_hz();
@@ -245,9 +243,7 @@ void run_programs(const RunRequest& request, ProgramJob& job, const std::string&
   for (const UnitStats& u : workstation.units())
     if (request.level != Level::kFunction) object.units.push_back({u.unit, u.values});
   const double ticks = object.cycles > 0 ? static_cast<double>(object.cycles) : static_cast<double>(object.instructions);
-  // The speed is that of the programs that count; what is made without time before them takes the host's time only.
   object.host = host_info(ticks, object.clock_hz, workstation.host_seconds());
-  object.host.seconds = seconds;
   object.facts = job.facts();
   object.notes.insert(object.notes.end(), workstation.notes().begin(), workstation.notes().end());
   // Counters of a run without time have no `cycles` that they would add up to.
