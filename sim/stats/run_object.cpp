@@ -23,6 +23,14 @@ void check_unit(const UnitRow& unit) {
 
 }  // namespace
 
+void add_sampling_interval(RunObject& run) {
+  for (const UnitRow& unit : run.units)
+    for (const auto& [name, value] : unit.values) {
+      if (name == "low") run.seconds_low = static_cast<double>(value) / run.clock_hz;
+      if (name == "high") run.seconds_high = static_cast<double>(value) / run.clock_hz;
+    }
+}
+
 void check_sanity(const RunObject& run) {
   std::int64_t sum = 0;
   for (const PhaseRow& phase : run.phases) {

@@ -80,6 +80,9 @@ struct RunObject {
   bool has_time() const { return level != "function"; }
 };
 
+/// What level `estimate` says of its sampling, the counters `low` and `high` of a unit, as the run's 99.7 % interval.
+void add_sampling_interval(RunObject& run);
+
 /// Stops dendro when the counters contradict themselves: a unit whose busy, stall and idle ticks do not add
 /// up to its cycles, phases that do not add up to the run, or more machine time than time.
 void check_sanity(const RunObject& run);

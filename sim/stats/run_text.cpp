@@ -28,8 +28,8 @@ std::string time_lines(const RunObject& run) {
   std::string text = fmt::format("  {} cycles at {:g} MHz = {}", grouped(run.cycles), run.clock_hz / 1e6,
                                  readable_seconds(run.seconds));
   if (run.seconds_low)
-    text += fmt::format(", {} to {} over the assumptions", readable_seconds(*run.seconds_low),
-                        readable_seconds(*run.seconds_high));
+    text += fmt::format(", {} to {} {}", readable_seconds(*run.seconds_low), readable_seconds(*run.seconds_high),
+                        run.level == "estimate" && run.contributions.empty() ? "with 99.7 % of all samples" : "over the assumptions");
   text += "\n";
   for (const PhaseRow& p : run.phases)
     text += fmt::format("    {:<20} {:>14} cycles {:>12}  {}\n", p.name, grouped(p.cycles),

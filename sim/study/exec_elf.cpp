@@ -213,13 +213,8 @@ ExecOutput exec_elf(const Catalogue& catalogue, const ExecArguments& arguments) 
   object.seconds = static_cast<double>(result.cycles) / result.clock_hz;
   object.elaborated = {type.name};
   object.instructions = result.instructions;
-  for (const UnitStats& unit : result.units) {
-    object.units.push_back({unit.unit, unit.values});
-    for (const auto& [name, value] : unit.values) {  // of level `estimate`
-      if (name == "low") object.seconds_low = static_cast<double>(value) / result.clock_hz;
-      if (name == "high") object.seconds_high = static_cast<double>(value) / result.clock_hz;
-    }
-  }
+  for (const UnitStats& unit : result.units) object.units.push_back({unit.unit, unit.values});
+  if (level == Level::kEstimate) stats::add_sampling_interval(object);
   for (const Phase& phase : phases_of(result.marks, result.cycles))
     object.phases.push_back(
         {phase.name, phase.cycles, static_cast<double>(phase.cycles) / result.clock_hz, phase.on_host});

@@ -53,8 +53,11 @@ CallResult CallServices::call(std::uint32_t number, const std::array<std::uint32
     case DENDRO_CALL_FAULT:
       fault = Fault{a[0], a[1], a[2], a[3]};
       return {0, false, true};
-    case kRead:
-      return outcome(inside ? read_file(a[0], memory.data() + a[1], a[2]) : -kFault);
+    case kRead: {
+      CallResult result = outcome(inside ? read_file(a[0], memory.data() + a[1], a[2]) : -kFault);
+      if (!result.failed) result.changed = a[1], result.changed_bytes = result.value;
+      return result;
+    }
     case kWrite:
       return outcome(inside ? write_file(a[0], memory.data() + a[1], a[2]) : -kFault);
     case kOpen: {

@@ -88,7 +88,11 @@ std::vector<LevelRow> compare_levels(const Catalogue& catalogue, const RunArgume
       made.output = execute_in_worker(request, "", progress);
       const double whole = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
       made.row.host_seconds = made.output->object.host.seconds;
-      made.row.cycles = made.output->object.cycles;
+      made.row.cycles = made.row.low = made.row.high = made.output->object.cycles;
+      if (const auto low = made.output->object.seconds_low) {
+        made.row.low = std::llround(*low * made.output->object.clock_hz);
+        made.row.high = std::llround(*made.output->object.seconds_high * made.output->object.clock_hz);
+      }
       spent += whole;
       beside = std::max(0.0, whole - made.row.host_seconds);
       before = made.output;
@@ -173,7 +177,7 @@ std::string levels_json(const std::vector<LevelRow>& rows) {
       json["host_seconds"] = row.host_seconds;
       json["cycles"] = timed ? Json(row.cycles) : Json(nullptr);
       json["cycle_error"] = timed ? Json(row.cycle_error) : Json(nullptr);
-      json["interval"] = timed ? Json({row.cycles, row.cycles}) : Json(nullptr);
+      json["interval"] = timed ? Json({row.low, row.high}) : Json(nullptr);
       json["image_psnr_db"] = row.image_psnr_db ? Json(*row.image_psnr_db) : Json(nullptr);
       json["different_pixels"] = row.different_pixels;
       json["speed"] = row.speed;

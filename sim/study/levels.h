@@ -13,7 +13,7 @@ namespace dendro::study {
 struct LevelRow {
   std::string level;
   double host_seconds = 0;
-  std::int64_t cycles = 0;
+  std::int64_t cycles = 0, low = 0, high = 0;  ///< of an estimate the 99.7 % interval, else `cycles`
   double cycle_error = 0;               ///< (cycles - reference) / reference; 0 at a level without time
   std::optional<double> image_psnr_db;  ///< against the reference's picture; none: identical
   std::int64_t different_pixels = 0;

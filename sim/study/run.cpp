@@ -244,6 +244,7 @@ void run_programs(const RunRequest& request, ProgramJob& job, const std::string&
     if (request.level != Level::kFunction) object.units.push_back({u.unit, u.values});
   const double ticks = object.cycles > 0 ? static_cast<double>(object.cycles) : static_cast<double>(object.instructions);
   object.host = host_info(ticks, object.clock_hz, workstation.host_seconds());
+  if (request.level == Level::kEstimate) stats::add_sampling_interval(object);
   object.facts = job.facts();
   object.notes.insert(object.notes.end(), workstation.notes().begin(), workstation.notes().end());
   // Counters of a run without time have no `cycles` that they would add up to.

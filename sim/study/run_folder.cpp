@@ -112,6 +112,8 @@ void RunFolder::commit() {
   if (!fs::exists(path_)) {
     rename_over(work_, path_);
   } else {
+    std::error_code unseen;
+    for (const char* film : {"frames", "animation.gif"}) fs::remove_all(fs::path(path_) / film, unseen);  // of another run
     for (const auto& entry : fs::directory_iterator(work_)) {
       const fs::path to = fs::path(path_) / entry.path().filename();
       std::error_code ignored;

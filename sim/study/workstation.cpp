@@ -108,6 +108,9 @@ void ElfWorkstation::make(const std::string& program, const std::vector<std::str
 
 void ElfWorkstation::add(const std::string& program, const ProgramResult& result,
                          const std::vector<MemoryServices::Mark>& calls) {
+  cycles_ += result.cycles;
+  // An estimate is of the whole program.
+  if (result.marks.empty() && result.cycles != 0) return add_phase(program, result.cycles);
   std::string phase = program + ".start";
   std::int64_t since = 0;
   // Without times the phases are told all the same.
@@ -122,7 +125,6 @@ void ElfWorkstation::add(const std::string& program, const ProgramResult& result
     since = mark.cycles;
   }
   add_phase(phase, result.cycles - since);
-  cycles_ += result.cycles;
 }
 
 void ElfWorkstation::add_phase(const std::string& name, std::int64_t cycles) {

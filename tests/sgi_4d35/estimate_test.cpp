@@ -73,7 +73,7 @@ TEST(Sgi4d35Estimate, AShortProgramIsExact) {
 /// Exceptions, refills of the TLB, interrupts, isolated caches, code that is written to, in and between the windows.
 TEST(Sgi4d35Estimate, RandomProgramsEndAsAtFunction) {
   Sampling sampling;
-  sampling.period = 64, sampling.lead_in = 7, sampling.window = 11;
+  sampling.period = 64, sampling.lead_in = 7, sampling.window = 11, sampling.exact = 128;
   unsigned stopped = 0, sampled = 0;
   for (std::uint32_t seed = 1; seed <= 200; ++seed) {
     const CornerProgram program = corner_program(seed);

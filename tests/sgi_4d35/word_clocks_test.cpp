@@ -1,7 +1,9 @@
 #include <gtest/gtest.h>
 
+#include "models/machines/sgi_4d35/board.h"
 #include "models/machines/sgi_4d35/clocked.h"
 #include "models/machines/sgi_4d35/cycle.h"
+#include "models/parts/r3000/r3000.h"
 #include "tests/sgi_4d35/random_program.h"
 #include "tests/sgi_4d35/timing_rig.h"
 
@@ -56,6 +58,41 @@ TEST(Sgi4d35Marks, HaveTheClocksBeforeTheirStoreByBothRoutes) {
     for (const ProgramMark& mark : result.marks)
       EXPECT_EQ(static_cast<std::int64_t>(retired[mark.instructions].clock), mark.cycles);
   }
+}
+
+/// A call of 4003 puts a word over one that has run; any other call stops.
+struct Overwrites : service_block::Services {
+  static constexpr std::uint32_t kPlace = (kCode & 0x1FFFFFFF) + 0x1004;
+  service_block::CallResult call(std::uint32_t number, const std::array<std::uint32_t, 4>&, base::ZeroedBytes& memory) override {
+    if (number != 4003) return {0, false, true};
+    const std::uint32_t word = __builtin_bswap32(add_immediate(kT3, kT3, 16));
+    std::memcpy(memory.data() + kPlace, &word, 4);
+    service_block::CallResult result;
+    result.changed = kPlace, result.changed_bytes = 4;
+    return result;
+  }
+};
+
+TEST(Sgi4d35Services, WordsThatACallWritesAreExecutedAtEveryLevel) {
+  const std::uint32_t jump = r3000::r_word(r3000::kFnJalr, 31, kT2, 0);
+  Words program{high(kT0, 0xBF00), add_immediate(kT3, 0, 0), high(kT2, 0x8001), or_immediate(kT2, kT2, 0x1000)};
+  for (int pass = 0; pass < 3; ++pass) program.insert(program.end(), {jump, kNop});
+  program.insert(program.end(), {or_immediate(kT1, 0, 4003), store(kT1, kT0), kNop, kNop, jump, kNop, store(0, kT0), kNop, kNop});
+  const ProgramImage image =
+      image_of({{kCode, program}, {kCode + 0x1000, {r3000::r_word(r3000::kFnJr, 0, 31, 0), add_immediate(kT3, kT3, 1)}}}, kCode);
+  Overwrites services;
+  RunOptions options;
+  r3000::State state;
+  options.final_state = &state;
+  for (const auto run : {run_cycle, run_clocked}) {
+    EXPECT_TRUE(run(small(), image, services, 1000, options).stopped);
+    EXPECT_EQ(3u + 16u, state.r[kT3]);
+  }
+  Board board(small().main_bytes, image, services);
+  r3000::Core<Board> core(small().processor, board);
+  start(core.state(), image);
+  core.run(1000);
+  EXPECT_EQ(3u + 16u, core.state().r[kT3]);
 }
 
 TEST(Sgi4d35Clocked, OneProcessRunsOneProgramAfterTheOther) {

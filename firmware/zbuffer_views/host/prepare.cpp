@@ -211,8 +211,9 @@ Prepared prepare(const scene::Scene& scene, RunSettings& settings) {
   p.full_product = options.boolean("full_product", false);
   settings = read_run(options, p);
   // Which programs are run is not a matter of the scene's content.
-  options.choice("compiler", "O2", {"O2", "O1", "fcr31"});
-  options.boolean("mapped", true);
+  const std::string compiler = options.choice("compiler", "O2", {"O2", "O1", "fcr31"});
+  if (!options.boolean("mapped", true) && compiler != "O2")
+    options.fail("mapped", "unmapped programs exist with compiler = \"O2\" only");
   options.finish();
   return p;
 }

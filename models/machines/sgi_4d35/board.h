@@ -52,6 +52,13 @@ struct Board {
     return in_block(physical, size) &&
            (offset == DENDRO_SERVICE_CALL || service_block::write(unchanged, services, memory, offset, 0));
   }
+  /// Pages of main memory that the last call has written.
+  template <class Use>
+  void changed_pages(const Use& use) const {
+    const std::uint64_t end = std::uint64_t{block.last.changed} + block.last.changed_bytes;
+    for (std::uint64_t page = block.last.changed & r3000::kPageMask; page < end && block.last.changed_bytes != 0; page += ~r3000::kPageMask + 1)
+      use(static_cast<std::uint32_t>(page));
+  }
   bool stopped() const { return block.last.stops; }
 };
 

@@ -24,6 +24,13 @@ struct Sums {
   }
 };
 
+/// Standard errors on both sides of a mean of n windows that hold it with 99.7 %: Student's quantile in the expansion of
+/// Cornish and Fisher about 3.
+double errors_of(double n) {
+  const double v = n - 1;
+  return 3 + 7.5 / v + 17.25 / (v * v) + 30.2 / (v * v * v);
+}
+
 /// `exact` clocks have passed, and `words` words whose windows these are.
 UnitStats estimate_of(std::uint64_t exact, const Sums& sums, const Sampling& sampling, double words) {
   double rest = 0, half = 0;
@@ -32,7 +39,7 @@ UnitStats estimate_of(std::uint64_t exact, const Sums& sums, const Sampling& sam
     const double mean = sums.cycles / n;
     const double variance = std::max(0.0, (sums.squares - n * mean * mean) / (n - 1));
     rest = mean * words / size;
-    half = 3 * std::sqrt(variance / n) * words / size;
+    half = errors_of(n) * std::sqrt(variance / n) * words / size;
   }
   const auto whole = [](double x) { return static_cast<std::uint64_t>(std::llround(std::max(x, 0.0))); };
   const std::uint64_t cycles = exact + whole(rest);
@@ -68,7 +75,7 @@ ProgramResult run_estimate(const Spec& spec, const ProgramImage& image, service_
   };
   const auto going = [&] { return left != 0 && !board.stopped(); };
   // The beginning is exact: a short program is, and there is always a window.
-  while (going() && let_go - left < 2 * sampling.period) window(first);
+  while (going() && let_go - left < sampling.exact) window(first);
   const std::uint64_t exact_words = limit - left, exact = core.time().bias;
   while (going()) {
     const std::uint64_t before = random() % (sampling.period - sampling.lead_in - sampling.window);

@@ -143,6 +143,7 @@ bool Core<Port, Timing>::slow_store(std::uint32_t address, unsigned size, std::u
   }
   leave_ = touched_ = true;
   if (port_.write(physical, size, value)) {
+    port_.changed_pages([this](std::uint32_t page) { forget_code(page); });
     if constexpr (kTimed) time_.write_uncached(physical);
     return true;
   }

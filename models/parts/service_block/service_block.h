@@ -12,6 +12,7 @@ struct CallResult {
   std::uint32_t value = 0;  ///< or the error's number
   bool failed = false;
   bool stops = false;  ///< the machine stops: the program is done
+  std::uint32_t changed = 0, changed_bytes = 0;  ///< memory that the call wrote, physical
 };
 
 /// What stands behind the calls. Addresses among the arguments are physical and may lie outside of `memory`.

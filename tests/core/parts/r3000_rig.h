@@ -26,6 +26,8 @@ struct RigPort {
     device = value;
     return physical == 0x10000000;
   }
+  template <class Use>
+  void changed_pages(const Use&) const {}
   bool stopped() const { return halt; }
 };
 
