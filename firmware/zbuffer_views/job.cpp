@@ -7,6 +7,7 @@
 
 #include "firmware/zbuffer_views/host/files.h"
 #include "firmware/zbuffer_views/host/prepare.h"
+#include "firmware/zbuffer_views/host/saved_views.h"
 #include "firmware/zbuffer_views/reference/reference.h"
 #include "firmware/zbuffer_views/sgi_4d35/format.h"
 #include "sim/base/error.h"
@@ -38,6 +39,7 @@ class ViewsJob : public ProgramJob {
     if (folder || !saved_views_.read_from(settings_.views_file))
       throw UserError(settings_.views_file, 0, "", folder ? "cannot be read: it is a folder" : "cannot be read");
     check_views(saved_views_, prepared_, digest_, settings_.views_file);
+    check_saved_views(saved_views_, settings_.views_file);
   }
 
   void run_programs(Workstation& workstation) override {
@@ -53,7 +55,11 @@ class ViewsJob : public ProgramJob {
     Bytes().swap(workstation.file(kTree));
     stored_ = check_views(views, prepared_, digest_, kViews);
     stored_bytes_ = views.size();
-    if (settings_.save_views) workstation.keep("views.zbv", views);
+    if (settings_.save_views) {
+      put_checksum(views);
+      workstation.keep("views.zbv", views);
+      take_checksum(views);
+    }
     draw(workstation, "zbuffer_views_reconstruct", kViews);
   }
 

@@ -104,10 +104,11 @@ void add_exec(CLI::App& app, const study::Catalogue& catalogue, Action& action) 
   command->add_option("program", o->exec.program, ".ucode file, .gia or .igc source; an ELF file for sgi-4d35")
       ->required();
   command->add_option("args", o->exec.arguments, "arguments of the program, after --; pixel-planes: commands, as NAME:A,B,C:guard=2 or REGISTER=VALUE");
-  command->add_option("--level", o->exec.level, "function, cycle or clocked; cycle where the machine has it")
+  command->add_option("--level", o->exec.level, "function, cycle or clocked, ELF files also estimate; cycle where the machine has it")
       ->check(some_text());
   command->add_option("--set", o->exec.settings, "key=value of the machine")->allow_extra_args(false);
-  command->add_option("--limit", machine.tick_limit, "ticks the processor may run")->check(whole_number(1));
+  command->add_option("--limit", machine.tick_limit, "ticks the processor may run, of ELF files instructions; 10,000,000,000 unless told")
+      ->check(whole_number(1));
   command->add_option("--dump", o->dumps, "ADDRESS[:COUNT] scratch words, or pixels, to print; one without COUNT")
       ->allow_extra_args(false);
   command->add_option("--json", o->json, "also write the result here; - is standard output")

@@ -108,6 +108,50 @@ TEST_F(ZbufferViews, SavedViewsThatDoNotSuitAreOneLine) {
   expect_user_error("run t.toml --set zbuffer_views.precompute=timed", "zbuffer_views.precompute: has nothing to time");
 }
 
+TEST_F(ZbufferViews, SavedViewsThatAreDamagedAreOneLineAndAChecksumIsNoneOfTheMachinesBusiness) {
+  const auto with = [](std::string bytes, std::size_t at, const std::string& other) { return bytes.replace(at, other.size(), other); };
+  write("s.toml", scene("save_views = true\n"));
+  run("s.toml --level cycle --out a");
+  const std::string views = read("a/views.zbv");
+  write("t.toml", scene("views = \"v.zbv\"\n"));
+  const std::string line = "v.zbv: is damaged: ", checksum = line + "its content does not have the checksum";
+  for (const std::size_t at : {std::size_t{74}, std::size_t{89}, views.size() / 2, views.size() - 1})
+    for (const int bit : {1, 128}) {
+      write("v.zbv", with(views, at, std::string(1, static_cast<char>(views[at] ^ bit))));
+      expect_user_error("run t.toml", checksum);
+    }
+  // Without a checksum, as a program writes it: the values still have to be possible.
+  constexpr std::size_t kHead = 76, kColour = 16, kView = 64, kSamples = 100 * 160;
+  const auto word = [&](std::size_t at) {
+    std::size_t value = 0;
+    for (std::size_t i = 0; i < 4; ++i) value = value << 8 | static_cast<std::uint8_t>(views[at + i]);
+    return value;
+  };
+  const std::size_t frames = kHead + kColour * word(48), planes = frames + kView * word(32);
+  EXPECT_NE(0u, word(kHead + 12));
+  const std::string bare = with(views, kHead + 12, std::string(4, '\0'));
+  const std::size_t colours = planes + 6 * kSamples, covered = bare.find_first_not_of('\xff', colours) - colours;
+  ASSERT_LT(covered, kSamples);
+  const auto refused = [&](std::size_t at, const std::string& bytes, const std::string& what) {
+    write("v.zbv", with(bare, at, bytes));
+    expect_user_error("run t.toml", line + what);
+  };
+  const std::string sample = "view 0, layer 0: sample " + std::to_string(covered);
+  refused(colours + covered, "\xc8", sample + " has colour 200 of ");
+  refused(colours + covered, "\xff", sample + " is half empty");
+  refused(planes + 4 * covered, "\x7f\xc0", sample + " has the depth nan");
+  refused(planes + 4 * covered, "\x49\x80", sample + " has the depth 10");
+  refused(frames + 28, "\x7f\x80", "view 0 holds a value that is not finite");
+  refused(kHead, "\x01", "colour 0 is none");
+  write("v.zbv", bare);
+  const json without = run("t.toml --level cycle --out b");
+  write("v.zbv", views);
+  const json loaded = run("t.toml --level cycle --set zbuffer_views.save_views=true --out c");
+  EXPECT_EQ(without["phases"], loaded["phases"]);
+  EXPECT_EQ(without["image"]["sha256"], loaded["image"]["sha256"]);
+  EXPECT_EQ(views, read("c/views.zbv"));
+}
+
 /// All of a run but what its host did and where its files went.
 json simulated(json object) {
   for (const char* key : {"host", "notes"}) object.erase(key);

@@ -6,6 +6,7 @@
 #include <string_view>
 #include <type_traits>
 
+#include "firmware/zbuffer_views/host/words.h"
 #include "firmware/zbuffer_views/reference/directions.h"
 #include "firmware/zbuffer_views/sgi_4d35/format.h"
 #include "sim/base/check.h"
@@ -19,10 +20,6 @@ void put_word(Bytes& file, std::uint32_t word) {
   for (int shift = 24; shift >= 0; shift -= 8) file.push_back(static_cast<std::uint8_t>(word >> shift));
 }
 
-std::uint32_t word_at(const Bytes& file, std::size_t at) {
-  return std::uint32_t{file[at]} << 24 | std::uint32_t{file[at + 1]} << 16 | std::uint32_t{file[at + 2]} << 8 | file[at + 3];
-}
-
 /// A structure of 32-bit words, big-endian.
 template <class T>
 void put(Bytes& file, const T& value) {
@@ -32,17 +29,6 @@ void put(Bytes& file, const T& value) {
     std::memcpy(&word, reinterpret_cast<const char*>(&value) + i, 4);
     put_word(file, word);
   }
-}
-
-template <class T>
-T get(const Bytes& file, std::size_t at) {
-  static_assert(std::is_trivially_copyable_v<T> && sizeof(T) % 4 == 0);
-  T value{};
-  for (std::size_t i = 0; i < sizeof(T); i += 4) {
-    const std::uint32_t word = word_at(file, at + i);
-    std::memcpy(reinterpret_cast<char*>(&value) + i, &word, 4);
-  }
-  return value;
 }
 
 void put_vector(float to[3], const glm::dvec3& v) {

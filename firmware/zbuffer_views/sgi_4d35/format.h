@@ -84,7 +84,7 @@ struct zbv_colour {
   uint32_t part;  /* zbv_part */
   uint32_t rgb;   /* 0x00RRGGBB */
   uint32_t below; /* index of the colour on the other side; its own where there is none */
-  uint32_t zero;
+  uint32_t checksum; /* 0; in the first colour of views that the host kept: see ../README.md */
 };
 ZBV_SIZE(zbv_colour, 4);
 
