@@ -34,6 +34,27 @@ TEST(MipsPrograms, MathematicsIsThatOfQemu) { expect_as_qemu("mips_maths", "60")
 
 TEST(MipsPrograms, AllocatorPagesAndFilesAreThoseOfQemu) { expect_as_qemu("mips_memory", scratch() + "/data"); }
 
+TEST(MipsPrograms, CallsRefuseAddressesBehindUserSpaceAsQemuDoes) {
+  for (const char* input : {"", "0123456789abcdef"}) {
+    const std::string before = std::string("printf '") + input + "' | ";
+    const Ran reference = run(before + qemu(elf("addresses"), "kernel"));
+    ASSERT_EQ(0, reference.status) << reference.errors;
+    const Ran ran = run(before + model(elf("addresses"), "kernel"));
+    EXPECT_EQ(reference.output, ran.output);
+    EXPECT_EQ(0, ran.status);
+    EXPECT_EQ("", ran.errors);
+  }
+}
+
+/// qemu puts its stack elsewhere.
+TEST(MipsPrograms, CallsReachTheLastByteOfUserSpaceAndNoFurther) {
+  const Ran ran = run(model(elf("addresses"), "top") + " </dev/null");
+  EXPECT_EQ(std::string(64, 'x') + "\nfits 64, over -14, path -14\n", ran.output);
+  EXPECT_EQ("", ran.errors);
+}
+
+TEST(MipsPrograms, MemoryGivenBackAndTakenAgainReadsZeroAsInQemu) { expect_as_qemu("mips_addresses", "break"); }
+
 TEST(MipsPrograms, WhatTheFloatingPointUnitGivesUpOnIsFinishedAsQemuDoesIt) {
   expect_as_qemu("mips_denormals", "");
 }

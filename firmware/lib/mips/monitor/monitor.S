@@ -113,7 +113,8 @@ done:
         jr      $k1
         rfe
 
-# Physical address of t1 in t2, mapping its page if the program may have it; without one t2 is -1. Uses at, t3-t5, ra as k0.
+# Physical address of t1 in t2, mapping its page if the program may have it; without one t2 is -1. A program in user mode
+# has none in kseg0 to kseg2. Uses at, t3-t5, ra as k0.
 physical:
         bltz    $t1, 2f
         srl     $t2, $t1, 12
@@ -152,9 +153,13 @@ physical:
         sll     $t2, $t2, 12
         jr      $k0
         or      $t2, $t2, $t1
-2:      sll     $t2, $t1, 3             # kseg0, kseg1
-        jr      $k0
+2:      mfc0    $t3, status
+        sll     $t2, $t1, 3             # kseg0, kseg1
+        andi    $t3, $t3, 8             # the program's mode
+        bne     $t3, $zero, 5f
         srl     $t2, $t2, 3
+        jr      $k0
+        nop
 5:      jr      $k0
         li      $t2, -1
 
@@ -228,8 +233,10 @@ fault:
 
 # brk(a0): the new break, or the old one where there is no room.
 brk:
-        lw      $t1, program_break
-        lw      $t2, first_break
+        lui     $t6, %hi(program_break)
+        lw      $t1, %lo(program_break)($t6)
+        lw      $t2, %lo(first_break)($t6)
+        lw      $t7, %lo(given_back)($t6)
         move    $a3, $zero
         sltu    $at, $a0, $t2
         bne     $at, $zero, done
@@ -243,16 +250,50 @@ brk:
         addu    $t3, $t3, $t5
 1:      sltu    $at, $t3, $a0
         bne     $at, $zero, done
-        nop
-        lui     $t5, %hi(program_break)
-        sw      $a0, %lo(program_break)($t5)
+        sltu    $at, $t1, $t7
+        sltu    $t3, $a0, $t1
+        or      $at, $at, $t3
+        bne     $at, $zero, used
+        sw      $a0, %lo(program_break)($t6)
         b       done
         move    $v0, $a0
+# The break falls, or it has fallen before: what is taken again, t1 to the lower of a0 and t7, is cleared. Heap pages lie one
+# to one, so kseg0 reaches them.
+used:
+        beq     $t3, $zero, 1f
+        move    $v0, $a0
+        sltu    $at, $t7, $t1
+        beq     $at, $zero, done
+        nop
+        j       done
+        sw      $t1, %lo(given_back)($t6)
+1:      sltu    $at, $a0, $t7
+        beq     $at, $zero, 2f
+        nop
+        move    $t7, $a0
+2:      beq     $t1, $t7, done
+        lui     $t5, 0x8000
+        or      $t1, $t1, $t5
+        or      $t7, $t7, $t5
+        swl     $zero, 0($t1)           # to the word's end; behind the new break nobody's bytes are left
+        ori     $t1, $t1, 3
+        addiu   $t1, $t1, 1
+3:      sltu    $at, $t1, $t7
+        beq     $at, $zero, done
+        nop
+        sw      $zero, 0($t1)
+        b       3b
+        addiu   $t1, $t1, 4
 
-# read and write: page by page, since pages need not be neighbours in memory. t6: done so far, t7: left, t8: address.
+# read and write: page by page, since pages need not be neighbours in memory. t6: done so far, t7: left, t8: address. Bytes
+# from kuseg into kseg0 are refused before the first is moved; those that begin behind kuseg are judged by `physical`.
 transfer:
+        addu    $t1, $a1, $a2
+        addiu   $t1, $t1, -1
+        or      $t1, $t1, $a2           # more than all of kuseg would come round again
         move    $t6, $zero
         move    $t7, $a2
+        bltz    $t1, 7f
         move    $t8, $a1
 1:      move    $t1, $t8
         la      $k0, 2f
@@ -293,6 +334,8 @@ transfer:
         move    $v0, $t6
 6:      j       done
         move    $v0, $t1
+7:      bltz    $t8, 1b
+        nop
 bad_address:
         bne     $t6, $zero, 4b
         move    $a3, $zero
@@ -508,6 +551,7 @@ unfinished:
         .balign 4
 program_break: .space 4
 first_break:   .space 4
+given_back:    .space 4                 # the highest break that a lower one followed, or 0
 saved:  .space 24
 path:   .space 1028
 frame:  .space 268
